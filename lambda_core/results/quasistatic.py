@@ -25,7 +25,7 @@ from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded
 from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
-from lambda_core.results.record import INTERFACE
+from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.ring_shape import RingShape, ring_shape
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict
@@ -35,8 +35,39 @@ from lambda_core.solver.drivers.wave_tables import waves_at
 from lambda_core.solver.records import CONTACT_CHANNELS
 
 
+class RollerLoad(Record):
+    """Loads of one roller."""
+
+    roller: int
+    azimuth_deg: float
+    inner_N: float
+    outer_N: float
+    rib_N: float = Field(description="largest load of a rib")
+    tilt_mrad: float = Field(description="of the roller in its plane")
+    max_line_load_N_mm: float = Field(description="largest load per length of a slice")
+
+
+class RollerStatics(Record):
+    """Numbers of an equilibrium that only rollers have."""
+
+    kind: str
+    raceway_share: float | None = Field(description="of the raceways in the torque")
+    rib_share: float | None = Field(description="of the ribs in the torque")
+    heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")
+    supply_factor: float | None = Field(description="of replenishment on the rolling resistance")
+    rib_load_N: float = Field(description="largest load of a rib")
+    rib_pressure_GPa: float
+    rib_film_um: float | None
+    rib_friction: float | None = Field(description="coefficient of friction of the most loaded rib")
+    inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
+    axial_limit_N: float | None = Field(description="permissible constant axial load of ribs of cylindrical rollers")
+    loads: list[RollerLoad] = Field(description="of every roller")
+
+
 class BearingStatics(Banded):
     """Quasi-static equilibrium of a bearing, alone or in a machine.
+
+    Its rolling elements are balls or rollers.
 
     Contacts, lives, friction and films without time; the cage is left out.
 
@@ -69,6 +100,7 @@ class BearingStatics(Banded):
     ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
     shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
     contacts: list[Contact] = Field(description="of every rolling element with each ring")
+    rollers: RollerStatics | None = Field(description="what only rollers have; null of balls", default=None)
     warnings: list[str] = Field(
         description="where the case or the state leaves what bearing, oil and laws are made for"
     )

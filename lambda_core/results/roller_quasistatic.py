@@ -1,21 +1,17 @@
-"""Declare the quasi-static answer of a roller bearing."""
+"""Solve a roller bearing at its operating point."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
-from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, SolverError
-from lambda_core.domain.number_text import hours, number
-from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
-from lambda_core.domain.wrapping import wrapped
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, amplitudes, waves_by_ring
@@ -31,19 +27,16 @@ from lambda_core.formulas.life import (
     life_modification_factor,
     reference_viscosity,
 )
-from lambda_core.formulas.loading import CARRYING, carries
+from lambda_core.formulas.loading import CARRYING, Ring, carries
 from lambda_core.model.bodies.resolve_elastic import waves_of_rings
 from lambda_core.model.checks.operating_limits import unbacked
 from lambda_core.model.settings.contamination import known_contamination
-from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
-from lambda_core.results.band_text import banded
+from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
-from lambda_core.results.model_band import Banded
+from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
 from lambda_core.results.rating import Rating
-from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.ring_shape import RingShape, ring_shape
-from lambda_core.results.text import band_lines, bent_lines, life_factor_text, line, place_with_play, warning_lines
+from lambda_core.results.ring_shape import ring_shape
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -54,73 +47,6 @@ _ASSUMED = (
     "torque is the mean over four places of the rollers in one pitch; loads, pressures and films are the extremes of "
     "these; lives and loads of single rollers belong to the place with a roller where the load presses",
 )
-
-
-class RollerLoad(Record):
-    """Loads of one roller."""
-
-    roller: int
-    azimuth_deg: float
-    inner_N: float
-    outer_N: float
-    rib_N: float = Field(description="largest load of a rib")
-    tilt_mrad: float = Field(description="of the roller in its plane")
-    max_line_load_N_mm: float = Field(description="largest load per length of a slice")
-
-
-class RollerQuasiStatic(Answer, Banded):
-    """Quasi-static solution of a roller bearing.
-
-    Loads, films, friction torque, lives and safety without time; the cage is left out.
-    """
-
-    interface: int = INTERFACE
-    case: str
-    title: str
-    headline: str
-    kind: str
-    loaded_rollers: int = Field(description="rollers that carry more than a thousandth of the largest load")
-    max_load_N: float = Field(description="largest load of a roller on a raceway")
-    max_pressure_GPa: float
-    friction_torque_Nmm: float | None = Field(description="dissipated power over the relative speed of the rings")
-    friction_breakdown_Nmm: dict[str, float] = Field(description="rolling, hysteresis, sliding by ring; rib; drag")
-    raceway_share: float | None = Field(description="of the raceways in the torque")
-    rib_share: float | None = Field(description="of the ribs in the torque")
-    heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")
-    supply_factor: float | None = Field(description="of replenishment on the rolling resistance")
-    cage_speed_ratio: float | None = Field(description="of rollers that do not slide, over the inner ring's speed")
-    film_um: list[float] = Field(
-        description="smallest and largest central film, of slices with more than 1 % of the largest load"
-    )
-    film_parameter: float | None = Field(description="smallest film over roughness of the raceways")
-    rib_load_N: float = Field(description="largest load of a rib")
-    rib_pressure_GPa: float
-    rib_film_um: float | None
-    rib_friction: float | None = Field(description="coefficient of friction of the most loaded rib")
-    inner_ring_displacement_um: list[float]
-    axial_play_um: float = Field(
-        description="from the middle to first contact without load: part of displacement x", default=0.0
-    )
-    inner_ring_tilt_mrad: list[float]
-    ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
-    inner_ring_moment_Nm: list[float] = Field(description="about y and z, that the rollers put on the shaft")
-    rating: Rating = Field(description="lives of every lamina (ISO 16281) and of ISO 281, safety; no catalogues")
-    axial_limit_N: float | None = Field(description="permissible constant axial load of ribs of cylindrical rollers")
-    rollers: list[RollerLoad]
-    warnings: list[str]
-    iterations: int
-    assumptions: list[str]
-
-    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
-        """Return the lines of text in some units.
-
-        None is longer than `width` where one is given.
-        """
-        return _text(self, width, units)
-
-    def __repr__(self) -> str:
-        """Return case, largest load and friction torque."""
-        return f"<RollerQuasiStatic {self.case}, {self.max_load_N:.5g} N, {number(self.friction_torque_Nmm, 1)} N mm>"
 
 
 @dataclass(frozen=True)
@@ -182,7 +108,7 @@ def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
     return replace(solved, friction=mean_friction(parts))
 
 
-def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
+def roller_quasistatic(model: RollerModel) -> QuasiStatic:
     """Solve a roller bearing.
 
     The answer has the units of the interface. The errors are those of :func:`solve_rollers`.
@@ -190,10 +116,28 @@ def roller_quasistatic(model: RollerModel) -> RollerQuasiStatic:
     return roller_answer(model, solve_rollers(model))
 
 
-def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStatic:
-    """Put a solved roller bearing into interface units."""
-    bearing = model.bearing
-    state, motion, turning = solved.state, solved.motion, solved.friction is not None
+def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
+    """Put a solution of a bearing alone into interface units."""
+    state, bearing = solved.state, model.bearing
+    x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
+    return QuasiStatic(
+        **roller_statics(model, solved),
+        case=model.name,
+        headline=headline_of(model, *state.carried),
+        inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
+        axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
+        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        iterations=state.steps,
+        assumptions=[*model.assumptions, *_ASSUMED],
+    )
+
+
+def roller_statics(model: RollerModel, solved: SolvedRollers) -> dict[str, Any]:
+    """Return the fields of :class:`BearingStatics` of rollers.
+
+    They have no verdict: it needs limits, which the model of rollers alone does not have.
+    """
+    bearing, state, motion, turning = model.bearing, solved.state, solved.motion, solved.friction is not None
     found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
     loads = {"inner": state.inner, "outer": state.outer}  # of every slice; light ones at the ends float on thick films
@@ -201,45 +145,82 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> RollerQuasiStati
     carrying = np.concatenate(films) if turning else np.zeros(0)
     radial, axial = state.carried
     limit = _limit(model, radial, motion)
-    x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
-    total = found.total
-    return RollerQuasiStatic(
-        case=model.name,
-        title=model.title,
-        headline=headline_of(model, radial, axial),
+    least = finite(min(found.film_parameter.values(), default=math.nan))
+    inner, outer = (float(load.sum(axis=1).max()) for load in loads.values())
+    return {
+        "title": model.title,
+        "loaded_balls": int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
+        "max_load_N": max(_largest(one) for one in solved.states),
+        "max_load_ring": "inner" if inner > outer else "outer",
+        "max_pressure_GPa": 1e-9 * max(_pressure(bearing, one, model) for one in solved.states),
+        "contact_angle_deg": [math.degrees(bearing.angles.inner), math.degrees(bearing.angles.outer)],
+        "rating": roller_rating(
+            bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination
+        ),
+        "friction_torque_Nmm": 1e3 * found.total if turning else None,
+        "friction_breakdown_Nmm": _parts(found) if turning else {},
+        "power_loss_W": found.total * abs(motion.relative) if turning else None,
+        "orbit_speed_ratio": motion.cage / motion.inner if motion.inner != 0.0 else None,
+        "film_um": [1e6 * float(carrying.min()), 1e6 * float(carrying.max())] if carrying.size else [],
+        "film_parameter": [] if least is None else [least],
+        "ring_shapes": [
+            ring_shape(ring, waves.counts, amplitudes(bearing, state)[ring]) for ring, waves in waves_by_ring(bearing)
+        ],
+        "shoulders": [],
+        "contacts": _contacts(bearing, solved),
+        "rollers": _of_rollers(bearing, solved, found, limit),
+        "warnings": _warnings(model, state, axial, limit),
+    }
+
+
+def _of_rollers(
+    bearing: RollerBearing, solved: SolvedRollers, found: RollerFriction, limit: AxialLimit | None
+) -> RollerStatics:
+    """Return what balls do not have."""
+    turning, state, total = solved.friction is not None, solved.state, found.total
+    return RollerStatics(
         kind=bearing.kind,
-        loaded_rollers=int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
-        max_load_N=max(_largest(one) for one in solved.states),
-        max_pressure_GPa=1e-9 * max(_pressure(bearing, one, model) for one in solved.states),
-        friction_torque_Nmm=1e3 * total if turning else None,
-        friction_breakdown_Nmm=_parts(found) if turning else {},
         raceway_share=found.raceways / total if turning and total > 0.0 else None,
         rib_share=found.rib / total if turning and total > 0.0 else None,
         heat_factor=found.heat_factor if turning else None,
         supply_factor=found.supply_factor if turning else None,
-        cage_speed_ratio=motion.cage / motion.inner if motion.inner != 0.0 else None,
-        film_um=[1e6 * float(carrying.min()), 1e6 * float(carrying.max())] if carrying.size else [],
-        film_parameter=finite(min(found.film_parameter.values(), default=math.nan)),
         rib_load_N=max(float(one.ribs.max(initial=0.0)) for one in solved.states),
         rib_pressure_GPa=1e-9 * found.rib_pressure,
         rib_film_um=finite(1e6 * found.rib_film),
         rib_friction=finite(found.rib_friction),
-        inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
-        axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
-        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
-        ring_shapes=[
-            ring_shape(ring, waves.counts, amplitudes(bearing, state)[ring]) for ring, waves in waves_by_ring(bearing)
-        ],
         inner_ring_moment_Nm=[-float(state.loads[3]), -float(state.loads[4])],
-        rating=roller_rating(
-            bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination
-        ),
         axial_limit_N=limit.continuous if limit else None,
-        rollers=_rollers(bearing, state),
-        warnings=_warnings(model, state, axial, limit),
-        iterations=state.steps,
-        assumptions=[*model.assumptions, *_ASSUMED],
+        loads=_rollers(bearing, state),
     )
+
+
+def _contacts(bearing: RollerBearing, solved: SolvedRollers) -> list[Contact]:
+    """Return every contact of a roller with a raceway.
+
+    Each has the film of the slice that carries most.
+    """
+    state, found, angles = solved.state, solved.friction, bearing.angles
+    loads = {"inner": state.inner, "outer": state.outer}
+    leans = {"inner": angles.inner, "outer": angles.outer}
+    return [
+        Contact(
+            ball=j + 1,
+            ring=ring,
+            azimuth_deg=math.degrees(float(azimuth)) % 360.0,
+            load_N=float(loads[ring][j].sum()),
+            contact_angle_deg=math.degrees(bearing.faces * leans[ring]),
+            film_um=_film(found, ring, j, loads[ring][j]),
+            capacitance_pF=None,
+        )
+        for j, azimuth in enumerate(state.azimuths)
+        for ring in get_args(Ring)
+    ]
+
+
+def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArray) -> float | None:
+    if found is None or float(loads.max()) <= 0.0:
+        return None
+    return 1e6 * float(found.film[ring][roller, int(np.argmax(loads))])
 
 
 def headline_of(model: RollerModel, radial: float, axial: float) -> str:
@@ -409,90 +390,3 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
     if tilt > ROLLER_TILT:
         found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")
     return found
-
-
-def _text(found: RollerQuasiStatic, width: int | None, units: UnitSystem) -> str:
-    """Return the answer's lines and table of rollers."""
-    parts, rating = found.friction_breakdown_Nmm, found.rating
-    tilt_y, tilt_z = found.inner_ring_tilt_mrad
-    pressure = units.text(found.max_pressure_GPa, "GPa", 3)
-    lines = [
-        units.sentence(found.headline),
-        line(
-            "equilibrium",
-            f"{found.loaded_rollers} rollers loaded",
-            f"Q_max {units.text(found.max_load_N, 'N', 0)}",
-            f"p_max {banded(found.max_pressure_GPa, found.max_pressure_GPa_band, 'GPa', pressure, units)}",
-        ),
-        line(
-            "inner ring",
-            *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
-            f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
-        ),
-        *bent_lines(found.ring_shapes, units),
-    ]
-    if found.friction_torque_Nmm is not None:
-        torque = units.text(found.friction_torque_Nmm, "N mm")
-        shares = f"raceways {100 * (found.raceway_share or 0.0):.0f} %, ribs {100 * (found.rib_share or 0.0):.0f} %"
-        lines += [
-            line(
-                "friction torque",
-                banded(found.friction_torque_Nmm, found.friction_torque_Nmm_band, "N mm", torque, units),
-                "(without cage)",
-                shares,
-            ),
-            *(_ring_line(ring, parts, units) for ring in ("inner", "outer")),
-            f"          rib {units.number(parts['rib'], 'N mm')}  drag {units.number(parts['drag'], 'N mm')}",
-            line("rolling factors", f"heat {number(found.heat_factor, 3)}", f"supply {number(found.supply_factor, 3)}"),
-            line("cage speed", f"{number(found.cage_speed_ratio, 4)} of inner ring"),
-            line("film", units.interval(found.film_um, "um", 2), f"Lambda {number(found.film_parameter, 1)}"),
-        ]
-    if found.rib_load_N > 0.0:
-        film = "" if found.rib_film_um is None else f"film {units.text(found.rib_film_um, 'um', 2)}"
-        friction = "" if found.rib_friction is None else f"friction {number(found.rib_friction, 4)}"
-        lines.append(line("rib", f"load {units.text(found.rib_load_N, 'N', 0)}", film, friction))
-    lines += [
-        *_life_lines(rating),
-        line(
-            "safety",
-            f"static C0/P0 {number(rating.static_safety)}" if rating.static_safety is not None else "",
-            f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
-            f"axial limit {units.text(found.axial_limit_N, 'N', 0)}" if found.axial_limit_N is not None else "",
-        ),
-        *_table(found, units),
-        *band_lines(found.model_band, units),
-        *warning_lines([units.sentence(warning) for warning in found.warnings], width),
-        line("assumed", f"{len(found.assumptions)} things: --json lists them"),
-    ]
-    return "\n".join(wrapped(lines, width))
-
-
-def _life_lines(rating: Rating) -> list[str]:
-    """Return basic lives and those with a_ISO."""
-    rows = (
-        ("rating life", rating.reference_life_h, rating.basic_life_h),
-        ("with a_ISO", rating.modified_reference_life_h, rating.modified_life_h),
-    )
-    lines, modified = [], (rating.life_factor, rating.contamination, rating.contamination_given)
-    for words, *lives in rows:
-        named = zip(lives, ("ISO 16281", "ISO 281"), strict=True)
-        texts = [f"{hours(life)} ({standard})" for life, standard in named if life is not None]
-        lines += [line(words, *texts)] if texts else []
-    return [*lines, line("", life_factor_text(*modified))] if rating.life_factor is not None else lines
-
-
-def _ring_line(ring: str, parts: dict[str, float], units: UnitSystem) -> str:
-    names = ("rolling", "hysteresis", "sliding")
-    return f"  {ring:<6}" + "".join(f"  {name} {units.number(parts[f'{name}_{ring}'], 'N mm')}" for name in names)
-
-
-def _table(found: RollerQuasiStatic, units: UnitSystem) -> list[str]:
-    """Return a row per roller."""
-    force = units.unit("N")
-    heads = (f"inner {force}", f"outer {force}", f"rib {force}", "tilt mrad", "N/mm")
-    table = [f"{'roller':>8}{'azimuth':>10}" + "".join(f"{head:>12}" for head in heads)]
-    for one in found.rollers:
-        loads = "".join(f"{units.value(load, 'N'):>12.1f}" for load in (one.inner_N, one.outer_N, one.rib_N))
-        row = f"{one.roller:>8}{one.azimuth_deg:>10.1f}{loads}{one.tilt_mrad:>12.4f}{one.max_line_load_N_mm:>12.1f}"
-        table.append(row)
-    return table

@@ -13,11 +13,11 @@ from lambda_core.results.band_text import banded, ends, source_lines, temperatur
 from lambda_core.results.quantity import quantities, remaining, shown
 
 if TYPE_CHECKING:
-    from lambda_core.results.bearing_summary import BearingSummary
+    from lambda_core.results.bearing_summary import BearingSummary, Contact
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.model_band import ModelBand
-    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
     from lambda_core.results.rating import Rating
     from lambda_core.results.ring_deformation import RingDeformation
     from lambda_core.results.ring_shape import RingShape
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lambda_core.results.verdict import Verdict
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
-_REST = ("cage", "drag", "bending")
+_REST = ("rib", "cage", "drag", "bending")
 # Numbers that texts and reports place by hand; every other declared number with a column follows them.
 PLACED = frozenset({
     "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
@@ -87,7 +87,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *element_lines(summary, units),
         *watched_lines(summary),
         *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
-        *([line("shoulders", *(_margin(edge, units) for edge in summary.shoulders))] if summary.shoulders else []),
+        *shoulder_lines(summary.shoulders, units),
         *band_lines(summary.model_band, units),
         line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
@@ -288,23 +288,18 @@ def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
 def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of an equilibrium.
 
-    It has a line per subject and a table of contacts; `width` is as above.
+    It has a line per subject and a table of contacts or rollers; `width` is as above.
     """
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
-    load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))
-    table = [f"{'ball':>6}{'azimuth':>10}{'ring':>8}{load:>10}{'angle deg':>11}{film:>10}{'C pF':>9}"]
-    for contact in found.contacts:
-        table.append(
-            f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}"
-            f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
-            f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
-        )
+    own = found.rollers
+    element = "ball" if own is None else "roller"
+    table = _contact_rows(found.contacts, units) if own is None else _roller_rows(own.loads, units)
     lines = [
         *verdict_lines(found.verdict, units),
         units.sentence(found.headline),
         line(
             "equilibrium",
-            f"{found.loaded_balls} balls loaded",
+            f"{found.loaded_balls} {element}s loaded",
             f"Q_max {shown(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
             f"p_max {shown(found, 'max_pressure_GPa', units)}",
         ),
@@ -316,16 +311,41 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),
-        *_motion_lines(found, units),
-        line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
+        *_motion_lines(found, element, units),
+        *(_rib_lines(own, units) if own is not None else []),
+        *shoulder_lines(found.shoulders, units),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
         *other_lines(found, units),
         *band_lines(found.model_band, units),
         *table,
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
-        *assumption_lines(found.assumptions),
+        *assumption_lines(found.assumptions, where="" if own is None else "--json lists them"),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _contact_rows(contacts: Sequence[Contact], units: UnitSystem) -> list[str]:
+    """Return a row per contact of a ball."""
+    load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))
+    head = f"{'ball':>6}{'azimuth':>10}{'ring':>8}{load:>10}{'angle deg':>11}{film:>10}{'C pF':>9}"
+    return [head] + [
+        f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}"
+        f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
+        f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
+        for contact in contacts
+    ]
+
+
+def _roller_rows(rollers: Sequence[RollerLoad], units: UnitSystem) -> list[str]:
+    """Return a row per roller."""
+    force = units.unit("N")
+    heads = (f"inner {force}", f"outer {force}", f"rib {force}", "tilt mrad", "N/mm")
+    table = [f"{'roller':>8}{'azimuth':>10}" + "".join(f"{head:>12}" for head in heads)]
+    for one in rollers:
+        loads = "".join(f"{units.value(load, 'N'):>12.1f}" for load in (one.inner_N, one.outer_N, one.rib_N))
+        row = f"{one.roller:>8}{one.azimuth_deg:>10.1f}{loads}{one.tilt_mrad:>12.4f}{one.max_line_load_N_mm:>12.1f}"
+        table.append(row)
+    return table
 
 
 def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
@@ -335,22 +355,43 @@ def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
     """
     if found.friction_torque_Nmm is None:
         return [line("friction torque", "none: nothing turns")]
+    own = found.rollers
+    shares = "" if own is None else f"raceways {_percent(own.raceway_share)}, ribs {_percent(own.rib_share)}"
     loss = [line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []
-    torque = line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)")
+    torque = line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)", shares)
     return [torque, *breakdown_lines(found.friction_breakdown_Nmm, units), *loss]
 
 
-def _motion_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return the balls' orbit and films.
+def _percent(share: float | None) -> str:
+    return f"{100.0 * (share or 0.0):.0f} %"
+
+
+def _motion_lines(found: QuasiStatic, element: str, units: UnitSystem) -> list[str]:
+    """Return the orbit of the rolling elements and their films.
 
     They roll up the films; at rest there are none.
     """
     if found.friction_torque_Nmm is None:
         return []
+    own = found.rollers
+    factors = () if own is None else (f"heat {number(own.heat_factor, 3)}", f"supply {number(own.supply_factor, 3)}")
     return [
-        line("ball orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
+        *([line("rolling factors", *factors)] if factors else []),
+        line(f"{element} orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
         line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
     ]
+
+
+def _rib_lines(own: RollerStatics, units: UnitSystem) -> list[str]:
+    """Return load, film and limit of the ribs."""
+    parts = []
+    if own.rib_load_N > 0.0:
+        film = "" if own.rib_film_um is None else f"film {units.text(own.rib_film_um, 'um', 2)}"
+        friction = "" if own.rib_friction is None else f"friction {number(own.rib_friction, 4)}"
+        parts = [f"load {units.text(own.rib_load_N, 'N', 0)}", film, friction]
+    if own.axial_limit_N is not None:
+        parts.append(f"axial limit {units.text(own.axial_limit_N, 'N', 0)}")
+    return [line("rib", *parts)] if parts else []
 
 
 def line(head: str, *parts: str) -> str:
@@ -365,11 +406,12 @@ def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -
     """
     shown = {name: units.number(value, "N mm") for name, value in parts.items()}
     width = max(map(len, shown.values()), default=1)
+    each = [name for name in _PER_RING if f"{name}_inner" in parts]
     rings = [
-        f"  {ring:<6}" + "".join(f"  {name} {shown[f'{name}_{ring}']:>{width}}" for name in _PER_RING)
+        f"  {ring:<6}" + "".join(f"  {name} {shown[f'{name}_{ring}']:>{width}}" for name in each)
         for ring in ("inner", "outer")
     ]
-    rest = [name for name in _REST if name != "bending" or parts[name]]  # of elastic parts only
+    rest = [name for name in _REST if parts.get(name) or (name in parts and name != "bending")]  # of elastic parts only
     return [*rings, f"  {'':<6}" + "".join(f"  {name} {shown[name]}" for name in rest)]
 
 
@@ -383,19 +425,24 @@ def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str
     ]
 
 
+def shoulder_lines(edges: Sequence[Shoulder], units: UnitSystem) -> list[str]:
+    """Return how near contacts come to the shoulders."""
+    return [line("shoulders", *(_margin(edge, units) for edge in edges))] if edges else []
+
+
 def _margin(edge: Shoulder, units: UnitSystem) -> str:
     where = "clear of" if edge.margin_um >= 0.0 else "OVER"
     return f"{edge.ring} {units.text(abs(edge.margin_um), 'um', 0)} {where} the edge"
 
 
-def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
+def assumption_lines(assumptions: Sequence[str], file: str = "", where: str = "") -> list[str]:
     """Return the count of assumptions in one line.
 
-    The line also says where they and their reasons are listed.
+    The line also says where they and their reasons are listed: `where`, or a command for a case or a `file`.
     """
     if not assumptions:
         return []
-    where = f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check --all"
+    where = where or (f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check --all")
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 

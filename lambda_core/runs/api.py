@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
-    from lambda_core.results.roller_quasistatic import RollerQuasiStatic
     from lambda_core.runs.crosscheck import CrossCheck
     from lambda_core.runs.estimate import Estimate
     from lambda_core.runs.progress import Progress
@@ -39,7 +38,7 @@ def quasistatic(
     *,
     band: bool = False,
     announce: Callable[[str], None] | None = None,
-) -> QuasiStatic | RollerQuasiStatic | MachineEquilibrium:
+) -> QuasiStatic | MachineEquilibrium:
     """Solve the quasi-static equilibrium at t = 0.
 
     It contains loads, angles, films and friction, without time and cage. Of a machine it is that of its elastic shaft
@@ -56,7 +55,7 @@ def quasistatic(
 
     Returns
     -------
-    QuasiStatic, RollerQuasiStatic or MachineEquilibrium
+    QuasiStatic or MachineEquilibrium
         Of one bearing with balls or rollers, or of a machine of several; numbers in the units of their names.
 
     Raises
@@ -94,7 +93,7 @@ def quasistatic(
 
 def _roller_answer(
     source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None, *, band: bool
-) -> RollerQuasiStatic | None:
+) -> QuasiStatic | None:
     """Return the answer of a roller bearing.
 
     None where the source is no case of one.

@@ -21,7 +21,6 @@ from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import ModelBand
 from lambda_core.results.quasistatic import QuasiStatic
-from lambda_core.results.roller_quasistatic import RollerQuasiStatic
 
 WARM = {
     "name": "warm",
@@ -143,7 +142,7 @@ def test_every_node_of_a_machine_has_a_band() -> None:
 def test_rollers_at_computed_temperatures_have_their_bands() -> None:
     rollers = {**WARM, "bearing": {"designation": "SKF NU 208 ECP"}}
     found, model = api.quasistatic(rollers, band=True), ready_model(rollers, is_static=True)
-    assert isinstance(found, RollerQuasiStatic)
+    assert isinstance(found, QuasiStatic)
     assert found.model_band is not None
     value = found.model_band.band("oil temperature").value
     assert value == pytest.approx(model.oil.temperature - 273.15, abs=1e-3)
@@ -152,7 +151,7 @@ def test_rollers_at_computed_temperatures_have_their_bands() -> None:
     assert low < value < high
     given = {**rollers, "operation": {"speed": "3000 rpm"}}
     cold = api.quasistatic({**given, "lubricant": {"name": "FVA3", "temperature": f"{value:.4f} degC"}})
-    assert isinstance(cold, RollerQuasiStatic)
+    assert isinstance(cold, QuasiStatic)
     assert found.friction_torque_Nmm == pytest.approx(cold.friction_torque_Nmm, rel=0.02)
 
 
@@ -163,7 +162,7 @@ def test_methods_on_rollers_are_compared_at_computed_temperatures() -> None:
     """
     rollers = {**WARM, "bearing": {"designation": "SKF NU 208 ECP"}}
     answer = api.quasistatic(rollers)
-    assert isinstance(answer, RollerQuasiStatic)
+    assert isinstance(answer, QuasiStatic)
     compared = api.compare(rollers)
     assert compared.value("quasi-static", "friction", "total") == pytest.approx(answer.friction_torque_Nmm)
     model = ready_model(rollers, is_static=True)

@@ -18,12 +18,8 @@ from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
 from lambda_core.domain.written_values import Scale
 from lambda_core.elements.roller.roller_positions import PLACES
 from lambda_core.model.roller_case import roller_model
-from lambda_core.results.roller_quasistatic import (
-    RollerQuasiStatic,
-    roller_answer,
-    solve_rollers,
-    with_friction,
-)
+from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.roller_quasistatic import roller_answer, solve_rollers, with_friction
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -187,13 +183,13 @@ def _exists(value: float) -> bool:
     return math.isfinite(value) and value != 0.0
 
 
-def _read(answer: RollerQuasiStatic, name: str, model: RollerModel) -> float:
+def _read(answer: QuasiStatic, name: str, model: RollerModel) -> float:
     """Return a result in the unit of its name.
 
     NaN where there is none.
     """
     torque = math.nan if answer.friction_torque_Nmm is None else answer.friction_torque_Nmm
-    life = answer.rating.reference_life_h
+    life = None if answer.rating is None else answer.rating.reference_life_h
     return {
         "friction torque": torque,
         "power loss": 1e-3 * torque * abs(model.speeds[0] - model.speeds[1]),

@@ -337,32 +337,13 @@ def _bearing(model: MachineModel, state: MachineState, index: int, found: Equili
 def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerReaction) -> BearingEquilibrium:
     """Return the numbers of a bearing with rollers."""
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
-    found = rollers_on_shaft(ring)
-    answer, rating = found.answer, found.rating
-    least = [] if answer.film_parameter is None else [answer.film_parameter]
-    judged = rated_verdict(rating, answer.max_pressure_GPa, least, 1e3 * float(np.hypot(*pose[3:])))
-    assert judged is not None  # its rating has limits
-    return BearingEquilibrium(
-        **_in_machine(bearing, state, index, pose, reaction),
-        title=bearing.model.title,
-        clearance_um=None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance,
-        loaded_balls=answer.loaded_rollers,
-        max_load_N=answer.max_load_N,
-        max_load_ring=found.largest_ring,
-        max_pressure_GPa=answer.max_pressure_GPa,
-        contact_angle_deg=found.angles,
-        rating=rating,
-        friction_torque_Nmm=answer.friction_torque_Nmm,
-        friction_breakdown_Nmm=dict(answer.friction_breakdown_Nmm),
-        power_loss_W=found.power,
-        orbit_speed_ratio=answer.cage_speed_ratio,
-        film_um=answer.film_um,
-        film_parameter=least,
-        shoulders=[],
-        contacts=found.contacts(),
-        verdict=judged,
-        warnings=list(dict.fromkeys([*answer.warnings, *operating_warnings(bearing.model, on_shaft=True)])),
-    )
+    own = rollers_on_shaft(ring).statics
+    tilt = 1e3 * float(np.hypot(*pose[3:]))
+    own["verdict"] = rated_verdict(own["rating"], own["max_pressure_GPa"], own["film_parameter"], tilt)
+    own["warnings"] = list(dict.fromkeys([*own["warnings"], *operating_warnings(bearing.model, on_shaft=True)]))
+    clearance = None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance
+    own["title"] = bearing.model.title
+    return BearingEquilibrium(**own, **_in_machine(bearing, state, index, pose, reaction), clearance_um=clearance)
 
 
 def _in_machine(

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from typing import get_args
+from typing import Any
 
 import numpy as np
 
-from lambda_core.domain.arrays import FloatArray
-from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_friction import OilState, RollerFriction
-from lambda_core.formulas.loading import Ring
+from lambda_core.elements.roller.roller_friction import OilState
 from lambda_core.laws.context import Oil
 from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
-from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.rating import Rating
-from lambda_core.results.roller_quasistatic import RollerQuasiStatic, SolvedRollers, roller_answer, solve_rollers
+from lambda_core.results.roller_quasistatic import SolvedRollers, roller_statics, solve_rollers
 from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
@@ -32,69 +27,19 @@ class RollersOnShaft:
         Geometry, oil and surfaces.
     solved : SolvedRollers
         Loads of slices and ribs, speeds, friction.
-    answer : RollerQuasiStatic
-        The same in the units of the interface.
-    rating : Rating
-        Lives and safety.
+    statics : dict
+        The fields of :class:`~lambda_core.results.quasistatic.BearingStatics`.
     """
 
     model: RollerModel
     solved: SolvedRollers
-    answer: RollerQuasiStatic
-    rating: Rating
+    statics: dict[str, Any]
 
     @property
-    def bearing(self) -> RollerBearing:
-        """Geometry."""
-        return self.model.bearing
-
-    @property
-    def largest_ring(self) -> Ring:
-        """Ring of the largest load.
-
-        The centrifugal force adds to the outer one.
-        """
-        inner, outer = (float(load.sum(axis=1).max()) for load in (self.solved.state.inner, self.solved.state.outer))
-        return "inner" if inner > outer else "outer"
-
-    @property
-    def power(self) -> float | None:
-        """Of the friction [W]; None at rest."""
-        found = self.solved.friction
-        return None if found is None else found.total * abs(self.solved.motion.relative)
-
-    @property
-    def angles(self) -> list[float]:
-        """Smallest and largest contact angle of the raceways, sizes [deg]."""
-        return [math.degrees(self.bearing.angles.inner), math.degrees(self.bearing.angles.outer)]
-
-    def contacts(self) -> list[Contact]:
-        """Return every contact of a roller with a raceway.
-
-        Each has the film of the slice that carries most.
-        """
-        state, found, angles = self.solved.state, self.solved.friction, self.bearing.angles
-        loads = {"inner": state.inner, "outer": state.outer}
-        leans = {"inner": angles.inner, "outer": angles.outer}
-        return [
-            Contact(
-                ball=j + 1,
-                ring=ring,
-                azimuth_deg=math.degrees(float(azimuth)) % 360.0,
-                load_N=float(loads[ring][j].sum()),
-                contact_angle_deg=math.degrees(self.bearing.faces * leans[ring]),
-                film_um=_film(found, ring, j, loads[ring][j]),
-                capacitance_pF=None,
-            )
-            for j, azimuth in enumerate(state.azimuths)
-            for ring in get_args(Ring)
-        ]
-
-
-def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArray) -> float | None:
-    if found is None or float(loads.max()) <= 0.0:
-        return None
-    return 1e6 * float(found.film[ring][roller, int(np.argmax(loads))])
+    def rating(self) -> Rating:
+        """Lives and safety."""
+        found: Rating = self.statics["rating"]
+        return found
 
 
 def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
@@ -104,9 +49,9 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
     """
     model, alone = ring.model, taken_out(ring)
     solved = solve_rollers(alone)
-    answer = roller_answer(alone, solved)
-    rating = answer.rating.model_copy(update={"limits": limits_of(model)})
-    return RollersOnShaft(alone, solved, answer, rating)
+    own = roller_statics(alone, solved)
+    own["rating"] = own["rating"].model_copy(update={"limits": limits_of(model)})
+    return RollersOnShaft(alone, solved, own)
 
 
 def taken_out(ring: RollerReaction) -> RollerModel:
