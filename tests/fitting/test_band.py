@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 import pytest
 from lambda_cli.main import main
+from lambda_syla2026 import anchors
 
 from lambda_core import api
 from lambda_core.analysis.band.changed import is_of_laws, with_value
@@ -42,7 +43,7 @@ from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.studies.job import resolve_point
 
-from .drawn_bearings import drawn_bearings
+from .drawn_bearings import CHOSEN_WITH, drawn_bearings
 
 # Table 4 of Syla et al. 2026, and the oil temperatures that its SKF row has (docs/validation.md).
 POINTS = {
@@ -54,6 +55,7 @@ POINTS = {
     "6319-cp6.5-3000": (69.4, 1847.0),
 }
 TORQUE = ("friction torque",)
+VALIDATION = Path(__file__).parents[2] / "docs/validation.md"
 
 
 def test_the_interval_score_is_the_published_one() -> None:
@@ -89,17 +91,28 @@ def test_the_band_of_table_4_holds_five_of_six_measured_torques() -> None:
 def test_the_band_holds_skf_on_twenty_bearings() -> None:
     """Count SKF's torque inside the band.
 
-    Bearings and points of a seeded draw under radial loads: at least 16 of 20, and no wider than 25 %.
+    Bearings and points of a seeded draw under radial loads, none of which a parameter was chosen with: at least 16 of
+    20, no wider than 25 %. Recorded: 20 inside, half-widths of 15 to 28 %, 18 inside a band of at most 25 %.
     """
-    method, good = {"skf": registry().methods["skf"]}, []
+    method, good, widths = {"skf": registry().methods["skf"]}, [], []
     for one in drawn_bearings():
         case = one.case()
         band = api.model_band(case, quantities=TORQUE).band("friction torque")
         skf = rating_of(solve(check_bearing(case, is_static=True)), method).skf_torque_Nmm
         assert skf is not None
-        good.append(band.low <= skf <= band.high and band.half_width_pct <= 25.0)
+        good.append(band.low <= skf <= band.high)
+        widths.append(band.half_width_pct)
     assert len(good) == 20
     assert sum(good) >= 16
+    assert sum(inside and width <= 25.0 for inside, width in zip(good, widths, strict=True)) >= 16
+    recorded = f"{sum(good)} inside; half-width {min(widths):.0f} to {max(widths):.0f} %"
+    assert recorded in VALIDATION.read_text(encoding="utf-8")
+
+
+def test_no_parameter_was_chosen_with_a_drawn_bearing() -> None:
+    names = [one.designation for one in drawn_bearings()]
+    assert len(set(names)) == 20
+    assert not {*CHOSEN_WITH, *(name for name, _ in anchors.BEARINGS), anchors.STRIBECK[0]} & set(names)
 
 
 def _light_case(speed: int, load: int) -> api.Case:
