@@ -20,6 +20,7 @@ from lambda_core.domain.units import from_si, misread, parse, units_of
 _LARGEST = 16 * 2**20  # [byte] of a file
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
 _LISTED = 16  # most names that an error lists
+_LONGEST, _BEGIN = 80, 20  # characters of a number, and of the part of it that an error shows
 _SHARE = "%"  # unit of an error as a share of the value
 
 
@@ -161,6 +162,9 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
     match = _HEADER.match(text)
     written, unit = (match[1], match[2]) if match else ("", None)
     words = written.casefold()
+    if not words:
+        problems.append(Problem(where, "has no name: name the column, or remove its commas from every line"))
+        return None
     if words == LABEL:
         return _Column("label", LABEL, "", "", text)
     is_error = words.endswith(ERROR)
@@ -172,7 +176,8 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
     if condition is None and name not in measured:
         known = [*vocabulary.conditions, *measured]
         close = nearest(name, known) or known[:_LISTED]
-        problems.append(Problem(where, f'"{text}" is not a known column; nearest: {", ".join(close)}'))
+        shown = text if len(text) <= _LONGEST else f"{text[:_BEGIN]}..."
+        problems.append(Problem(where, f'"{shown}" is not a known column; nearest: {", ".join(close)}'))
         return None
     if condition is not None:
         quantity = condition.error_quantity if is_error else condition.quantity
@@ -227,8 +232,12 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
             problems.append(Problem(where, f'"{column.header}" is empty: write a number or remove the line'))
         return math.nan
     try:
+        if len(cell) > _LONGEST:
+            raise ValueError(f'"{cell[:_BEGIN]}..." has {len(cell)} characters: a number has at most {_LONGEST}')
         if mistake := misread(cell):
             raise ValueError(mistake)
+        if "_" in cell:  # Python's own separator of digits
+            raise ValueError("could not convert")
         number = float(cell)
         if not math.isfinite(number):
             raise ValueError(f'"{cell}" is not a finite number')

@@ -58,7 +58,7 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
     CaseError, SolverError
         When the case is not valid with these changes, or has no equilibrium.
     """
-    return _Point(with_temperatures(resolve_point(case_toml, tuple(changes)))).values(names, one=one)
+    return _Point(with_temperatures(resolve_point(case_toml, tuple(changes), is_static=True))).values(names, one=one)
 
 
 class OperatingPoints:
@@ -105,7 +105,7 @@ class OperatingPoints:
         None where their parameters decide its temperatures.
         """
         if changes not in self._points:
-            model = resolve_point(self._toml, changes)
+            model = resolve_point(self._toml, changes, is_static=True)
             if model.thermal is not None:
                 return None
             self._points[changes] = _Point(model)

@@ -116,12 +116,12 @@ class BearingSubject:
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""
-        model = with_temperatures(resolve_point(self._toml, tuple(changes)))
+        model = with_temperatures(resolve_point(self._toml, tuple(changes), is_static=True))
         return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
 
     def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
         """Return both ends of each quantity's model band."""
-        found = band_alone(with_temperatures(resolve_point(self._toml, tuple(changes))), names)
+        found = band_alone(with_temperatures(resolve_point(self._toml, tuple(changes), is_static=True)), names)
         return {one.quantity: [one.low, one.high] for one in found.bands}
 
 

@@ -131,16 +131,17 @@ def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | Mach
     return resolve_machine(tables, changes, catalogue=_catalogue())
 
 
-def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
+def resolve_point(case_toml: str, changes: tuple[str, ...], *, is_static: bool = False) -> BearingModel:
     """Return the model of a one-bearing point.
 
-    It is a point of a case of one bearing; CaseError with all its problems.
+    It is a point of a case of one bearing; CaseError with all its problems. With `is_static` it is for an equilibrium,
+    which needs no end in time.
     """
     from lambda_core.case.case_io import apply_overrides
     from lambda_core.discovery.api import registry
     from lambda_core.model.resolve import resolve
 
-    return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue())
+    return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue(), is_static=is_static)
 
 
 @lru_cache(maxsize=4)

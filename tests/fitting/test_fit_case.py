@@ -126,6 +126,7 @@ def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], rep
         ("tau_eyring=3..10", 'has no unit: write 4 MPa..16 MPa'),
         ("tau_eyring=10 MPa..3 MPa", "is not a range: write LOW..HIGH"),
         ("tau_eyring=3 mm..10 mm", "no unit in common"),
+        ("loss_factor=0..9", "loss_factor: 9 should be less than or equal to 0.2: give a smaller range"),
         ("lubricant.temperature", 'the column "oil temperature" of rig.csv sets it; leave one of the two out'),
     ],
 )  # fmt: skip
@@ -221,3 +222,18 @@ def test_a_measured_torque_of_zero_is_refused_with_its_line() -> None:
     measured = parse_measurements("speed [1/min],friction torque [N mm]\n500,925\n1500,0\n", "rig.csv")
     with pytest.raises(UsageError, match=r"rig\.csv line 3: friction torque is 0: a fit needs values above 0"):
         api.fit(CASE, measured, ["loss_factor"])
+
+
+def test_points_at_rest_have_displacements_and_no_torque() -> None:
+    """Fit the clearance to a displacement at rest.
+
+    The point was refused for want of a duration.
+    """
+    head = "speed [1/min],displacement z [um]\n"
+    report = api.fit(
+        CASE, parse_measurements(f"{head}0,-60\n0,-60\n", "rest.csv"), ["bearing.clearance=5 um..60 um"], suggest=False
+    )
+    assert report.points[0].predicted == pytest.approx(-60.0, rel=0.01)
+    torque = parse_measurements("speed [1/min],friction torque [N mm]\n0,9\n500,900\n", "rest.csv")
+    with pytest.raises(UsageError, match="line 2: a bearing at rest has no friction torque"):
+        api.fit(CASE, torque, ["loss_factor"], suggest=False)

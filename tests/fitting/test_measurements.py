@@ -68,6 +68,13 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed [rpm],power loss [W]\n1,\n", "line 2                 has no measured value"),
         ("friction torque [N mm]\n-100\n", 'friction torque [N mm]: "-100": must be 0 or above'),
         ("power loss [W],power loss error [%]\n1,0\n", "an error must be above zero"),
+        ("power loss [W],power loss error [%]\n1,-3\n", '"-3": an error must be above zero'),
+        ("power loss [W],\n1,\n", "line 1, column 2       has no name: name the column"),
+        ("power loss [W]\n1_0\n", '"1_0" is not a number'),
+        (f"power loss [W]\n{400 * '9'}\n", '"99999999999999999999..." has 400 characters'),
+        (f"power loss [W]\n{30_000 * 'x'}\n", "line 2                 has 30000 characters: a line has at most"),
+        (f"{500 * 'x'} [W]\n1\n", 'line 1, column 1       "xxxxxxxxxxxxxxxxxxxx..." is not a known column'),
+        ("label,power loss [W]\na\u2028b,1\nc,x\n", "line 3, column 2       power loss [W]"),
     ],
 )  # fmt: skip
 def test_every_mistake_has_line_column_and_remedy(text: str, said: str) -> None:

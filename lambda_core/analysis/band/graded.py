@@ -13,6 +13,8 @@ from functools import cache, partial
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
+from pydantic import ValidationError
+
 from lambda_core.case.option import quantity_of
 from lambda_core.domain.elements import RIBS
 from lambda_core.domain.errors import UsageError, nearest
@@ -217,10 +219,30 @@ def varied(model: BearingModel, specification: str) -> Graded:
         raise UsageError(f'--vary: "{name}" names several parameters: write {" or ".join(sorted(matching))}')
     found = every[matching[0]]
     if equals:
-        return given_range(found, ends)
+        given = given_range(found, ends)
+        _refuse_outside(model, given)
+        return given
     if found.path not in ranged:
         raise UsageError(f"--vary: {found.path} has no published range: give one, for example --vary {found.example()}")
     return found
+
+
+def _refuse_outside(model: BearingModel, given: Graded) -> None:
+    """Refuse a range with an end that the law refuses.
+
+    A fit tries values between both ends.
+    """
+    if not given.law:
+        return
+    _, role, name = given.path.split(".")
+    law = next(roles[role] for roles in model.laws.values() if role in roles and roles[role].model.name == given.law)
+    written = law.parameters.model_dump(mode="json")
+    for end in (given.low, given.high):
+        try:
+            type(law.parameters).model_validate(written | {name: given.written(end)})
+        except ValidationError as error:
+            why = error.errors()[0]["msg"].removeprefix("Value error, ").removeprefix("Input ")
+            raise UsageError(f"--vary {given.path}: {given.scale.text(end)} {why}: give a smaller range") from None
 
 
 def _example(entry: Graded) -> str:
