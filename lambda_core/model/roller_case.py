@@ -35,21 +35,27 @@ from lambda_core.model.checks.operating_limits import speed_warning
 from lambda_core.model.laws.roller_laws import friction_of_case
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger, Status
+from lambda_core.model.roller_loads import (
+    Held,
+    as_outer_ring,
+    held_directions,
+    inner_loads,
+    outer_ring_loads,
+    outer_speed,
+    outer_support,
+)
 from lambda_core.model.settings.contamination import contamination_of
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
-    from lambda_core.case.motion import RingBody
     from lambda_core.discovery.api import Registry
 
-STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
 _WHERE = "bearing.designation"
 _NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch_diameter")
 _QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no length
 _BOUNDARY = ("bore_diameter", "outside_diameter", "width")
 _REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
 _ROUGHNESS = "Wingertszahn et al. 2023, Lubricants 11, 369"
-_Held = tuple[bool, bool, bool, bool, bool]
 _SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
 
 
@@ -91,13 +97,17 @@ class RollerModel:
         Where held directions of the inner ring are [m, rad], (5,); None: at zero.
     loose : tuple of str
         Directions in which a load moves both rings, because nothing holds the outer one.
+    support : array or None
+        Stiffness of what holds the outer ring, inf where it is rigid, (5,) [N/m, N m/rad]; None: rigid everywhere.
+    outer_loads : array or None
+        On the outer ring, as `loads`; they count where its support is elastic.
     """
 
     name: str
     title: str
     bearing: RollerBearing
     loads: FloatArray
-    held: _Held
+    held: Held
     speeds: tuple[float, float]
     oil: OilState
     friction: FrictionParameters
@@ -111,6 +121,27 @@ class RollerModel:
     values: tuple[ResolvedValue, ...] = ()
     displacement: FloatArray | None = None
     loose: tuple[str, ...] = ()
+    support: FloatArray | None = None
+    outer_loads: FloatArray | None = None
+
+    @property
+    def drawing(self) -> FloatArray | None:
+        """Stiffness towards the place of a held inner ring.
+
+        It is that of the outer ring's support, zero where that is rigid or the inner ring free, (5,).
+        """
+        if self.support is None:
+            return None
+        return np.where(np.array(self.held) & np.isfinite(self.support), self.support, 0.0)
+
+    def outer_displacement(self, carried: FloatArray) -> FloatArray:
+        """Return where its support lets the outer ring go.
+
+        The rollers take `carried` from the inner ring, (5,) [N, N m]; the result is (5,) [m, rad].
+        """
+        if self.support is None or self.outer_loads is None:
+            return np.zeros(len(POSE))
+        return (carried + self.outer_loads) / self.support
 
     @property
     def warnings(self) -> list[str]:
@@ -172,10 +203,13 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
                 state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
     geometry = bent_rings(geometry, case, catalogue, ledger) if geometry else None
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
-    held, written = _held(case, ledger), friction_of_case(case, known, ledger)
+    held, written = held_directions(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
-    loads = _loads(case, ledger)
-    held, loose = _as_outer_ring(case, held, loads, ledger)
+    loads = inner_loads(case, ledger)
+    support, outer_loads = outer_support(case), outer_ring_loads(case, ledger)
+    held, loose = as_outer_ring(case, held, loads, outer_loads)
+    if support is not None:
+        loads = np.where(np.array(held) & np.isfinite(support), -outer_loads, loads)
     ledger.check(case.name)
     if geometry is None or state is None or row is None:
         raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
@@ -189,7 +223,9 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         loads=loads,
         held=held,
         loose=loose,
-        speeds=(initial(time_function(case.operation.speed)), _outer_speed(case)),
+        support=support,
+        outer_loads=outer_loads,
+        speeds=(initial(time_function(case.operation.speed)), outer_speed(case)),
         oil=state,
         friction=replace(friction_parameters(geometry, case.surface.roughness, lubrication, level), **written),
         lubricant=row.name,
@@ -382,83 +418,6 @@ def _limits(bore: float, text: str) -> tuple[float, float]:
         return roller_clearance(bore, text)
     except ValueError as error:
         raise LambdaError(str(error)) from None
-
-
-def _outer_speed(case: Case) -> float:
-    """Return the initial speed of the outer ring [rad/s]."""
-    motion = case.bodies.outer_ring.spin.motion
-    return 0.0 if motion is None else initial(time_function(motion))
-
-
-def _loads(case: Case, ledger: Ledger) -> FloatArray:
-    """Return the loads at t = 0, (5,).
-
-    They act on the inner ring. Its weight counts where the case gives its mass, and that of the shaft.
-    """
-    loads = case.loads
-    numbers = {
-        name: initial(time_function(getattr(loads, name))) for name in ("radial", "axial", "moment_y", "moment_z")
-    }
-    direction = loads.radial_direction
-    found = np.array(
-        [
-            numbers["axial"],
-            numbers["radial"] * math.cos(direction),
-            numbers["radial"] * math.sin(direction),
-            numbers["moment_y"],
-            numbers["moment_z"],
-        ]
-    )
-    if loads.inner_ring is not None:
-        more = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
-        found += [initial(time_function(getattr(loads.inner_ring, name))) for name in more]
-    ring, gravity = case.bodies.inner_ring, np.array([case.gravity.x, case.gravity.y, case.gravity.z])
-    if ring.mass is None and gravity.any():
-        ledger.assume("the weight of the inner ring is left out: the case gives no mass of it")
-    found[:3] += ((ring.mass or 0.0) + ring.shaft_mass) * gravity
-    return found
-
-
-def _held(case: Case, ledger: Ledger) -> _Held:
-    """Return the locked displacements of the inner ring.
-
-    Tilts that the case leaves open are locked.
-    """
-    ring, found = case.bodies.inner_ring, []
-    for name in POSE:
-        mode = _mode(ring, name)
-        written = name in ring.model_fields_set
-        if mode not in ("free", "locked"):
-            ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
-        found.append(mode == "locked" or (name.startswith("tilt") and not written))
-    if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
-        ledger.assume(STRAIGHT)
-    x, y, z, tilt_y, tilt_z = found
-    return x, y, z, tilt_y, tilt_z
-
-
-def _mode(ring: RingBody, name: str) -> str:
-    """Return how a ring is held in a direction."""
-    holding = getattr(ring, name)
-    return "spring" if getattr(holding, "stiffness", None) else str(getattr(holding, "mode", holding))
-
-
-def _as_outer_ring(case: Case, held: _Held, loads: FloatArray, ledger: Ledger) -> tuple[_Held, tuple[str, ...]]:
-    """Return what of the rings' relative pose is held.
-
-    Also return the loose directions. Where the outer ring alone is free, it goes where no load is left.
-    """
-    found, loose = list(held), []
-    for i, name in enumerate(POSE):
-        mode = _mode(case.bodies.outer_ring, name)
-        if mode == "spring":
-            ledger.assume(f"the support of the outer ring along {name} is left out: displacements count from that ring")
-        elif mode == "free" and held[i]:
-            found[i], loads[i] = False, 0.0
-        elif mode == "free" and loads[i] != 0.0:
-            loose.append(name)
-    x, y, z, tilt_y, tilt_z = found
-    return (x, y, z, tilt_y, tilt_z), tuple(loose)
 
 
 def _oil(law: OilLaw, temperature: float, conductivity: float) -> OilState:

@@ -32,7 +32,8 @@ from lambda_core.model.laws.law_defaults import law_sentences, record_law
 from lambda_core.model.laws.roller_laws import law_of_rollers, written_parameters
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
-from lambda_core.model.roller_case import STRAIGHT, roller_geometry, roller_model, roller_title
+from lambda_core.model.roller_case import roller_geometry, roller_model, roller_title
+from lambda_core.model.roller_loads import STRAIGHT
 
 if TYPE_CHECKING:
     from lambda_core.laws.law import Law
@@ -89,7 +90,7 @@ def rollers_of(
 def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> None:
     """Refuse cages that a kind does not have.
 
-    Also refuse a missing cage where the kind needs one. The message says how much room a full complement has.
+    Without one the message says how much room the rollers have.
     """
     if not rollers.full_complement:
         if case.models.cage_contact == _NEIGHBOURS:
@@ -98,9 +99,6 @@ def _check_complement(case: Case, rollers: RollerBearing, ledger: Ledger) -> Non
         return
     if case.depth.cage and "cage" in case.depth.model_fields_set:
         ledger.problem("depth.cage", f"{rollers.kind} rollers are a full complement without a cage: write false")
-    if rollers.kind == "tapered":
-        told = "tapered rollers in motion need their cage: write true (quasistatic leaves cages out)"
-        ledger.problem("depth.cage", told)
     ledger.assume(
         f"no cage: neighbouring rollers touch; they leave {show(rollers.room, 'length', 3)} of the pitch circle free, "
         "even gaps at the start"

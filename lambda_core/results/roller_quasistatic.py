@@ -29,6 +29,7 @@ from lambda_core.formulas.life import (
 )
 from lambda_core.formulas.loading import CARRYING, Ring, carries
 from lambda_core.model.bodies.resolve_elastic import waves_of_rings
+from lambda_core.model.checks.loose_rings import loose_sentence
 from lambda_core.model.checks.operating_limits import unbacked
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.averages import finite
@@ -76,11 +77,7 @@ class SolvedRollers:
 def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> SolvedRollers:
     """Find a roller bearing's equilibria over one pitch, and friction."""
     if model.loose:
-        along = model.loose[0]
-        raise SolverError(
-            f"{model.name}: no quasi-static equilibrium: a load acts along {along} and nothing holds the rings there: "
-            f"lock bodies.outer_ring.{along} or give it a support"
-        )
+        raise SolverError(loose_sentence(model.name, model.loose[0]))
     motion = rolling_motion(model.bearing, *model.speeds)
     try:
         states = over_a_pitch(
@@ -89,6 +86,7 @@ def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> Solve
             held=model.held,
             displacement=model.displacement,
             inertial=motion.inertial(model.bearing),
+            support=model.drawing,
             slices=model.slices,
             places=places,
         )
@@ -119,7 +117,7 @@ def roller_quasistatic(model: RollerModel) -> QuasiStatic:
 def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
     """Put a solution of a bearing alone into interface units."""
     state, bearing = solved.state, model.bearing
-    x, y, z, tilt_y, tilt_z = (float(value) for value in state.ring)
+    x, y, z, tilt_y, tilt_z = (state.ring + model.outer_displacement(state.loads)).tolist()
     return QuasiStatic(
         **roller_statics(model, solved),
         case=model.name,

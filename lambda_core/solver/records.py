@@ -100,7 +100,7 @@ KINEMATICS = record(
     ("line_skew", f8),  # of a roller's axis to the raceway's generatrix [rad]
     ("entrainment_slope", f8),  # of entrainment_t along the line [1/s]
 )
-LINE_DRIVERS = (*DRIVERS, "line_tilt", "line_tilt_rate", "entrainment_slope")  # what a line contact depends on
+LINE_DRIVERS = (*DRIVERS, "line_tilt", "line_tilt_rate", "entrainment_slope", "line_skew")  # of a line contact
 TANGENT = record(*((name, WRENCH) for name in DRIVERS))  # derivative of the wrench with each driver
 CONTACT = record(
     ("load", f8),  # elastic [N]

@@ -144,7 +144,7 @@ class RollerBearing:
             raise ValueError("`contact_angle` must be above zero for tapered bearings and zero for all others")
         if not 0.0 < self.effective_length <= self.length:
             raise ValueError("`effective_length` must be above zero and at most the roller's length")
-        if self.count * math.asin(self.diameter / self.pitch_diameter) > math.pi:
+        if self.room < 0.0:
             raise ValueError(f"{self.count} rollers of {1e3 * self.diameter:g} mm do not fit on the pitch circle")
 
     @property
@@ -157,9 +157,11 @@ class RollerBearing:
         """Circumferential clearance [m].
 
         The arc of the pitch circle that touching rollers leave free.
-        Neighbours that touch stand 2 asin(D_we/D_pw) apart (Harris and Kotzalas, vol. 1, ch. 2: chords).
+        Neighbours that touch stand 2 asin(D_we/D_pw) apart (Harris and Kotzalas, vol. 1, ch. 2: chords); cones of half
+        angle b about axes at angle g to the bearing's 2 asin(sin(b)/sin(g)) (spherical triangle at their apex).
         """
-        return (math.pi - self.count * math.asin(self.diameter / self.pitch_diameter)) * self.pitch_diameter
+        chord = self.diameter * math.cos(self.angles.half)
+        return (math.pi - self.count * math.asin(chord / self.pitch_diameter)) * self.pitch_diameter
 
     @property
     def mean_diameter(self) -> float:

@@ -2,8 +2,9 @@
 
 Every roller has three degrees of freedom in its plane, the inner ring five. All contacts are springs that only push:
 laminae of ISO 16281 on both raceways, Hertz's point contact at ribs. An elastic ring adds the amplitudes c of its waves
-with the energy k c^2/2 (formulas.elastic.ring). All of it is convex in displacements and amplitudes, so that the
-equilibrium is its only minimum; a damped Newton method with the exact Hessian finds it.
+with the energy k c^2/2 (formulas.elastic.ring), an elastic support that of its spring. All of it is convex in
+displacements and amplitudes, so that the equilibrium is its only minimum; a damped Newton method with the exact Hessian
+finds it.
 """
 
 from __future__ import annotations
@@ -126,10 +127,11 @@ def balance(
     slices: int = 40,
     first_angle: float = 0.0,
     near: RollerEquilibrium | None = None,
+    support: FloatArray | None = None,
 ) -> RollerEquilibrium:
     """Find the equilibrium of rollers and inner ring.
 
-    The outer ring stands still, but for its waves where it bends.
+    The outer ring stands still, but for its waves where it bends; what is found counts from there.
 
     Parameters
     ----------
@@ -150,6 +152,8 @@ def balance(
         Azimuth of the first roller [rad].
     near : RollerEquilibrium, optional
         Of the same bearing, from whose rollers the search starts.
+    support : array, optional
+        Stiffness of springs that draw held directions to the prescribed displacement, (5,) [N/m, N m/rad]; zero: rigid.
 
     Raises
     ------
@@ -162,13 +166,15 @@ def balance(
     springs = single_springs(bearing, slices)
     azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
     carry, bending = _carry(azimuths, bearing), _bending(bearing)
+    drawn = np.zeros(_POSE) if support is None else support
     free = ~np.array(held)
     ring = np.zeros(_POSE) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
-    outside = np.zeros(3) if inertial is None else inertial
+    outside, rest = np.zeros(3) if inertial is None else inertial, ring.copy()
     ring, rollers = _start(bearing, loads, free, ring, azimuths)
     rollers = rollers if near is None else near.rollers
     still = np.zeros(bending.size)
-    ring, loads, free = np.append(ring, still), np.append(loads, still), np.append(free, still == 0.0)
+    loads, free = np.append(loads, still), np.append(free | (drawn > 0.0), still == 0.0)
+    ring, rest, bending = np.append(ring, still), np.append(rest, still), np.append(drawn, bending)
     merit = np.inf
     given = max(float(np.max(np.abs(loads[:3]))), abs(float(np.max(np.abs(loads[3:])))) / bearing.length, 1e-3)
     # a shadow stiffness: what moves nothing stays where it is, what is in balance does not feel it
@@ -177,10 +183,11 @@ def balance(
         penetration = rollers @ springs.roller.T + plane @ springs.ring.T - springs.gap
         force, slope = springs.forces(penetration)
         merit = springs.energy(penetration) - float(np.sum(rollers @ outside)) - float(loads @ ring)
-        merit += _bent_energy(bending, ring)
+        merit += _bent_energy(bending, ring - rest)
         roller_left = force @ springs.roller - outside
         ring_left = np.einsum("zm,mp,zpq->q", force, springs.ring, carry) - loads
-        ring_left[_POSE:] += bending * ring[_POSE:]
+        pull = bending * (ring - rest)
+        ring_left += pull
         left = max(
             float(np.max(np.abs(roller_left[:, :2]))),
             float(np.max(np.abs(roller_left[:, 2]))) / bearing.length,
@@ -193,9 +200,9 @@ def balance(
         if left < _SETTLED * size:
             n = slices
             loaded = force[:, n : 2 * n], force[:, :n], force[:, 2 * n :]
-            carried, waves = (ring_left + loads)[:_POSE], ring[_POSE:].reshape(-1, 2)
+            carried, waves = (ring_left - pull + loads)[:_POSE], ring[_POSE:].reshape(-1, 2)
             return RollerEquilibrium(
-                ring[:_POSE], rollers, azimuths, *loaded, carried, step, condensed.of_the_pose(), waves
+                ring[:_POSE], rollers, azimuths, *loaded, carried, step, condensed.of_the_pose(bending), waves
             )
         move_ring, move_rollers = _newton(condensed, free, ring_left)
         longest = max(
@@ -211,7 +218,7 @@ def balance(
             new_ring, new_rollers = ring + share * move_ring, rollers + share * move_rollers
             moved = new_rollers @ springs.roller.T + np.einsum("zpq,q->zp", carry, new_ring) @ springs.ring.T
             value = springs.energy(moved - springs.gap) - float(np.sum(new_rollers @ outside)) - float(loads @ new_ring)
-            value += _bent_energy(bending, new_ring)
+            value += _bent_energy(bending, new_ring - rest)
             if value <= merit + 1e-4 * share * descent + 1e-14 * abs(merit):
                 break
             share *= 0.5
@@ -335,12 +342,12 @@ def _bending(bearing: RollerBearing) -> FloatArray:
     return np.ravel(found)
 
 
-def _bent_energy(bending: FloatArray, ring: FloatArray) -> float:
-    """Return the energy of bent rings [J].
+def _bent_energy(bending: FloatArray, moved: FloatArray) -> float:
+    """Return the energy of supports and bent rings [J].
 
-    It is k c^2/2 of every amplitude.
+    It is k c^2/2 of every displacement from its place and of every amplitude.
     """
-    return 0.5 * float(bending @ ring[_POSE:] ** 2)
+    return 0.5 * float(bending @ moved**2)
 
 
 def _carry(azimuths: FloatArray, bearing: RollerBearing) -> FloatArray:
@@ -409,13 +416,13 @@ class _Condensed:
     alone: FloatArray  # step of the rollers to their own balance, sign turned, (Z, 3)
     left: FloatArray  # on pose and waves, of that step, (q,)
 
-    def of_the_pose(self) -> FloatArray:
+    def of_the_pose(self, bending: FloatArray) -> FloatArray:
         """Return the stiffness of the pose, (5, 5).
 
-        Waves are in equilibrium throughout.
+        Waves are in equilibrium throughout; supports do not count.
         """
         pose, waves = slice(0, _POSE), slice(_POSE, None)
-        found = self.stiffness[pose, pose]
+        found = self.stiffness[pose, pose] - np.diag(bending[pose])
         if len(self.diagonal) > _POSE:
             bent = np.linalg.solve(self.stiffness[waves, waves], self.stiffness[waves, pose])
             found = found - self.stiffness[pose, waves] @ bent
@@ -433,8 +440,8 @@ def _condensed(
     mixed = np.einsum("zm,mi,mp->zip", slope, springs.roller, springs.ring) @ carry
     plane = np.einsum("zm,mp,mr->zpr", slope, springs.ring, springs.ring)
     ring = np.einsum("zpq,zpr,zrs->qs", carry, plane, carry, optimize=True)
-    if bending.size:
-        ring = ring + np.diag(np.append(np.zeros(_POSE), bending))
+    if bending.any():
+        ring = ring + np.diag(bending)
     scale = np.maximum(np.einsum("zii->zi", own).max(axis=0), 1.0)
     own = own + _SOFT * np.diag(scale)
     solved = np.linalg.solve(own, np.concatenate([mixed, roller_left[:, :, None]], axis=2))

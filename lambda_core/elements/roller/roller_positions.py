@@ -25,6 +25,7 @@ def over_a_pitch(
     held: tuple[bool, bool, bool, bool, bool],
     displacement: FloatArray | None = None,
     inertial: FloatArray | None = None,
+    support: FloatArray | None = None,
     slices: int = 40,
     places: Sequence[float] = PLACES,
 ) -> tuple[RollerEquilibrium, ...]:
@@ -36,13 +37,14 @@ def over_a_pitch(
 
     Parameters
     ----------
-    bearing, loads, held, displacement, inertial, slices
+    bearing, loads, held, displacement, inertial, support, slices
         As for :func:`balance`, which raises what this raises.
     places : sequence of float
         In pitches from there.
     """
     given = np.zeros(5) if displacement is None else displacement
-    y, z = (float(given[i] if held[i] else loads[i]) for i in (1, 2))
+    drawn = np.zeros(5) if support is None else support
+    y, z = (float(given[i] if held[i] and drawn[i] == 0.0 else loads[i]) for i in (1, 2))
     toward = math.atan2(z, y) if y or z else 0.0
     found: list[RollerEquilibrium] = []
     for place in places:
@@ -56,6 +58,7 @@ def over_a_pitch(
                 slices=slices,
                 first_angle=toward + 2.0 * math.pi * place / bearing.count,
                 near=found[-1] if found else None,
+                support=support,
             )
         )
         carried = found[0].inner.sum(axis=1)

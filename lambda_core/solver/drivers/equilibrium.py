@@ -24,6 +24,7 @@ from lambda_core.laws.law import Law
 from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
 from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checks.loose_rings import loose_directions, loose_sentence
 from lambda_core.model.checks.operating_limits import operating_point, operating_warnings
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.solver.arrays import bundle as L
@@ -134,6 +135,8 @@ def solve(
     """
     if model.thermal is not None:
         raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
+    if loose := loose_directions(model):
+        raise SolverError(loose_sentence(model.name, loose[0]))
     kernels = kernels or Kernels(model, announce)
     frame = first_frame(model)
     oils = derive_oils(model, kernels, frame)

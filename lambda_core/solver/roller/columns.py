@@ -2,9 +2,9 @@
 
 An entry point of its own, called by pointer.
 
-A contact's wrench depends on the states through twelve kinematic numbers (records.LINE_DRIVERS). Its slopes with them
-are differences of the whole contact, taken once; their slopes with the states are differences of the kinematics. Forces
-of pockets and the equations of motion are differenced as they are.
+The wrench of a line depends on the states through thirteen kinematic numbers (records.LINE_DRIVERS), that of a rib
+through the first nine. Its slopes with them are differences of the whole contact, taken once; their slopes with the
+states are differences of the kinematics. Forces of pockets and the equations of motion are differenced as they are.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from lambda_core.solver.contact.ring_waves import add_push_slope, push_slopes, w
 from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.block_rows import force_map
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
-from lambda_core.solver.records import BODY_STATE, ROLLER
+from lambda_core.solver.records import BODY_STATE, DRIVERS, LINE, ROLLER
 from lambda_core.solver.roller.kinematics import apply_roller_wrench
 from lambda_core.solver.roller.motion import roller_rates
 from lambda_core.solver.roller.neighbours import neighbour_forces
@@ -30,8 +30,9 @@ from lambda_core.solver.vec import clear, clear_each, store
 
 _TILT = 1e-7  # [rad]
 _RELATIVE = 1e-5  # relative step of what laws depend on, but at least the smallest one
-_LEAST = (1e-11, 1e-6, 1e-7, 1e-7, 1e-5, 1e-5, 1e-5, 1e-7, 1e-7, 1e-9, 1e-5, 1e-5)  # as records.LINE_DRIVERS
+_LEAST = (1e-11, 1e-6, 1e-7, 1e-7, 1e-5, 1e-5, 1e-5, 1e-7, 1e-7, 1e-9, 1e-5, 1e-5, 1e-7)  # as LINE_DRIVERS
 _LEAST_STEPS = np.array(_LEAST)
+_OF_A_POINT = len(DRIVERS)
 
 
 @helper
@@ -48,7 +49,7 @@ def _drivers(kin):
     """
     return (
         kin.penetration, kin.normal_velocity, kin.slip_t, kin.slip_s, kin.rotation_t, kin.rotation_s, kin.rotation_n,
-        kin.entrainment_t, kin.entrainment_s, kin.line_tilt, kin.line_tilt_rate, kin.entrainment_slope,
+        kin.entrainment_t, kin.entrainment_s, kin.line_tilt, kin.line_tilt_rate, kin.entrainment_slope, kin.line_skew,
     )  # fmt: skip
 
 
@@ -77,8 +78,10 @@ def _shift(kin, i, step):
         kin.line_tilt += step
     elif i == 10:
         kin.line_tilt_rate += step
-    else:
+    elif i == 11:
         kin.entrainment_slope += step
+    else:
+        kin.line_skew += step
 
 
 @helper
@@ -94,7 +97,9 @@ def _tangent(raceway, bundle, bl):
     values = _drivers(kin)
     for i in range(bl.drivers.shape[0]):
         bl.drivers[i, :] = 0.0
-        if bundle.system[0].friction_on == 0 and i != 0 and i != 9:
+        if raceway.kind != LINE and i >= _OF_A_POINT:
+            continue
+        if bundle.system[0].friction_on == 0 and i not in (0, 9, 12):
             continue
         step = _RELATIVE * abs(values[i]) + _LEAST_STEPS[i]
         scratch.kinematics[1] = scratch.kinematics[0]

@@ -3,9 +3,15 @@
 At every station, a plane across the mean of both axes, the law sees how far one axis is from the other, and how fast it
 moves; the station has a share of the force that the law has for the whole length. So rollers that skew or tilt against
 each other touch at one end.
+
+Tapered rollers have another radius at every station. Their cones have one apex, so that they touch along a line whose
+normal lies across the plane of symmetry: the law, which knows the mean radius, sees both axes moved along it by what
+the radius differs.
 """
 
 from __future__ import annotations
+
+import math
 
 from lambda_core.solver.cage.guides import force_and_point, guide_energy, guide_force, guide_loss, neighbour_apply
 from lambda_core.solver.layout import guide_law, helper, part
@@ -62,9 +68,10 @@ def _station_state(roller, other, row, share, g):
     arm = scale((x - half) / dot(own, axis), own)
     lever = scale((x + half) / dot(its, axis), its)
     place = add(apart, subtract(arm, lever))
-    store(g.origin, lever)
-    store(g.place, components(place, g.axial, g.radial, g.tangential))
-    moved = subtract(point_velocity(v, spin, arm), point_velocity(u, turn, add(lever, place)))
+    wider = scale(-x * math.tan(row.cone_angle) / length(place), place)  # radius beyond the mean, towards the other
+    store(g.origin, subtract(lever, wider))
+    store(g.place, components(add(place, scale(2.0, wider)), g.axial, g.radial, g.tangential))
+    moved = subtract(point_velocity(v, spin, add(arm, wider)), point_velocity(u, turn, add(add(lever, place), wider)))
     store(g.velocity, components(moved, g.axial, g.radial, g.tangential))
     store(g.rotation, components(subtract(spin, turn), g.axial, g.radial, g.tangential))
 

@@ -1,0 +1,119 @@
+"""Read loads and supports of rings at rest."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lambda_core.case.case import Case
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
+from lambda_core.model.laws.time_functions import initial, time_function
+from lambda_core.model.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.case.motion import RingBody
+
+STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
+Held = tuple[bool, bool, bool, bool, bool]
+_FORCES = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
+
+
+def outer_speed(case: Case) -> float:
+    """Return the initial speed of the outer ring [rad/s]."""
+    motion = case.bodies.outer_ring.spin.motion
+    return 0.0 if motion is None else initial(time_function(motion))
+
+
+def inner_loads(case: Case, ledger: Ledger) -> FloatArray:
+    """Return the loads at t = 0, (5,).
+
+    They act on the inner ring. Its weight counts where the case gives its mass, and that of the shaft.
+    """
+    loads = case.loads
+    numbers = {
+        name: initial(time_function(getattr(loads, name))) for name in ("radial", "axial", "moment_y", "moment_z")
+    }
+    direction = loads.radial_direction
+    found = np.array(
+        [
+            numbers["axial"],
+            numbers["radial"] * math.cos(direction),
+            numbers["radial"] * math.sin(direction),
+            numbers["moment_y"],
+            numbers["moment_z"],
+        ]
+    )
+    if loads.inner_ring is not None:
+        found += [initial(time_function(getattr(loads.inner_ring, name))) for name in _FORCES]
+    ring, gravity = case.bodies.inner_ring, np.array([case.gravity.x, case.gravity.y, case.gravity.z])
+    if ring.mass is None and gravity.any():
+        ledger.assume("the weight of the inner ring is left out: the case gives no mass of it")
+    found[:3] += ((ring.mass or 0.0) + ring.shaft_mass) * gravity
+    return found
+
+
+def held_directions(case: Case, ledger: Ledger) -> Held:
+    """Return the locked displacements of the inner ring.
+
+    Tilts that the case leaves open are locked.
+    """
+    ring, found = case.bodies.inner_ring, []
+    for name in POSE:
+        mode = _mode(ring, name)
+        written = name in ring.model_fields_set
+        if mode not in ("free", "locked"):
+            ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
+        found.append(mode == "locked" or (name.startswith("tilt") and not written))
+    if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
+        ledger.assume(STRAIGHT)
+    x, y, z, tilt_y, tilt_z = found
+    return x, y, z, tilt_y, tilt_z
+
+
+def _mode(ring: RingBody, name: str) -> str:
+    """Return how a ring is held in a direction."""
+    holding = getattr(ring, name)
+    return "spring" if getattr(holding, "stiffness", None) else str(getattr(holding, "mode", holding))
+
+
+def as_outer_ring(case: Case, held: Held, loads: FloatArray, outer_loads: FloatArray) -> tuple[Held, tuple[str, ...]]:
+    """Return what of the rings' relative pose is held.
+
+    Also return the loose directions. Where the outer ring alone is free, it goes where no load is left.
+    """
+    found, loose = list(held), []
+    for i, name in enumerate(POSE):
+        mode = _mode(case.bodies.outer_ring, name)
+        if mode == "free" and held[i]:
+            found[i], loads[i] = False, -outer_loads[i]
+        elif mode == "free" and loads[i] != 0.0:
+            loose.append(name)
+    x, y, z, tilt_y, tilt_z = found
+    return (x, y, z, tilt_y, tilt_z), tuple(loose)
+
+
+def outer_support(case: Case) -> FloatArray | None:
+    """Return the stiffness of the outer ring's support.
+
+    It is inf where the ring is rigid, (5,) [N/m, N m/rad]; None: everywhere.
+    """
+    found = [getattr(getattr(case.bodies.outer_ring, name), "stiffness", 0.0) or math.inf for name in POSE]
+    return None if all(math.isinf(one) for one in found) else np.array(found)
+
+
+def outer_ring_loads(case: Case, ledger: Ledger) -> FloatArray:
+    """Return the loads on the outer ring [N, N m].
+
+    They are those at t = 0, (5,). Its weight counts where the case gives its mass.
+    """
+    found, ring = np.zeros(len(POSE)), case.bodies.outer_ring
+    if case.loads.outer_ring is not None:
+        found += [initial(time_function(getattr(case.loads.outer_ring, name))) for name in _FORCES]
+    gravity = np.array([case.gravity.x, case.gravity.y, case.gravity.z])
+    if ring.mass is None and gravity.any() and outer_support(case) is not None:
+        ledger.assume("the weight of the outer ring is left out: the case gives no mass of it")
+    found[:3] += (ring.mass or 0.0) * gravity
+    return found
