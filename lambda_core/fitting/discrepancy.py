@@ -34,6 +34,7 @@ _PARTS = 12
 # changes by its own size over about one. Log-uniform over a factor of four both ways.
 _REACHES = (0.25, 0.5, 1.0, 2.0, 4.0)
 _MARGIN = 0.05  # e-folds beyond the range of measured conditions that still count as inside
+_LEAST_ERROR = 1e-6  # of a measured value
 _CONDITIONS = ("speed", "radial load", "axial load", "moment y", "moment z")  # over which it changes
 
 
@@ -159,7 +160,9 @@ def predict(
     before, spread = _known_before(parameters)
     offset = before - values
     both = _joined(at, asked)
-    count, deviation = measured.size, np.concatenate([errors, np.zeros(asked.predicted.size)])
+    # points that are fitted exactly still have a covariance
+    floor = _LEAST_ERROR * np.maximum(np.abs(measured), _LEAST_ERROR * np.abs(measured).max())
+    count, deviation = measured.size, np.concatenate([np.maximum(errors, floor), np.zeros(asked.predicted.size)])
     mean = both.predicted + both.jacobian @ offset
     linear = both.jacobian * spread
     known = linear @ linear.T + np.diag(deviation**2)
