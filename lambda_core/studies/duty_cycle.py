@@ -24,6 +24,7 @@ from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
+from lambda_core.case.short_form import NAME as ALONE
 from lambda_core.discovery.api import registry
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
@@ -33,6 +34,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import Time
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.averages import finite
+from lambda_core.results.machine_numbers import total
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.studies.load_spectrum import read_spectrum
@@ -156,6 +158,31 @@ class _Step:
     changes: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class SolvedBearing:
+    """Answer of one bearing in one phase.
+
+    Lives, friction torque [N mm] and power loss [W], None where they are not known, and warnings.
+    """
+
+    rating: Rating
+    torque: float | None
+    loss: float | None
+    warnings: list[str]
+
+
+@dataclass(frozen=True)
+class SolvedPhase:
+    """Answer of one phase.
+
+    The speed of the rings against each other [1/min], every bearing by its name, and warnings of a machine.
+    """
+
+    speed_rpm: float
+    bearings: Mapping[str, SolvedBearing]
+    warnings: Sequence[str] = ()
+
+
 @one_blas_thread()
 def duty(
     source: str | Path | Mapping[str, Any], *, announce: Callable[[str], None] | None = None
@@ -183,15 +210,55 @@ def duty(
         With a sentence about the cycle, or about a phase that is named.
     """
     cycle, case, steps = _read(source)
-    if not isinstance(case, Case):
-        from lambda_core.studies.machine_duty import MachinePhases, added_machine
+    solve = partial(_solved, case, announce) if isinstance(case, Case) else _phases_of_machine(case, announce)
+    found = [_at(step, case.name, partial(solve, step.changes)) for step in steps]
+    if isinstance(case, Case):
+        return _cycles(cycle.name, {ALONE: case.name}, steps, found)[ALONE]
+    from lambda_core.studies.machine_duty import joined_bearings
 
-        solver = MachinePhases(announce)
-        found = [_at(step, case.name, partial(solver.solved_case, case, step.changes)) for step in steps]
-        return added_machine(cycle.name, case.name, [(step.name, step.time) for step in steps], found, _ADDED)
-    total_time = sum(step.time for step in steps)
-    alone = [_at(step, case.name, partial(_solved, step, case, step.time / total_time, announce)) for step in steps]
-    return summed_phases(cycle.name, case.name, total_time, alone, _ADDED)
+    names = {name: f"{case.name}, {name}" for name in found[0].bearings}
+    warned = list(dict.fromkeys(text for phase in found for text in phase.warnings))
+    return joined_bearings(cycle.name, case.name, _cycles(cycle.name, names, steps, found), warned, _ADDED)
+
+
+def _phases_of_machine(
+    case: MachineCase, announce: Callable[[str], None] | None
+) -> Callable[[Sequence[str]], SolvedPhase]:
+    from lambda_core.studies.machine_duty import MachinePhases
+
+    return MachinePhases(case, announce).solved
+
+
+def _cycles(
+    name: str, cases: Mapping[str, str], steps: Sequence[_Step], found: Sequence[SolvedPhase]
+) -> dict[str, DutyCycle]:
+    """Return the sum of every bearing.
+
+    `cases` says by the bearing's name what its sum is of.
+    """
+    time, cycles = sum(step.time for step in steps), {}
+    for bearing, case in cases.items():
+        own = [_phase(step, step.time / time, phase, bearing) for step, phase in zip(steps, found, strict=True)]
+        cycles[bearing] = summed_phases(name, case, time, own, _ADDED)
+    return cycles
+
+
+def _phase(step: _Step, share: float, found: SolvedPhase, name: str) -> PhaseResult:
+    """Return one bearing in one phase."""
+    own, turns = found.bearings[name], found.speed_rpm > 0.0
+    return PhaseResult(
+        name=step.name,
+        share=share,
+        speed_rpm=found.speed_rpm,
+        equivalent_load_N=own.rating.equivalent_load_N,
+        basic_life_h=own.rating.basic_life_h if turns else None,
+        reference_life_h=own.rating.reference_life_h if turns else None,
+        damage=None,
+        friction_torque_Nmm=own.torque if turns else None,
+        power_loss_W=own.loss if turns else 0.0,
+        energy_loss_kJ=0.0 if not turns else None if own.loss is None else 1e-3 * own.loss * step.time,
+        warnings=own.warnings,
+    )
 
 
 def summed_phases(
@@ -199,35 +266,27 @@ def summed_phases(
 ) -> DutyCycle:
     """Add up the phases of one bearing.
 
-    `whole` is the time of all of them [s].
+    `total_time` is the time of all of them [s].
     """
     lives = {kind: _added(alone, kind) for kind in ("basic_life_h", "reference_life_h")}
-    total = lives["reference_life_h"]
-    phases = [phase.model_copy(update={"damage": _damage(phase, total)}) for phase in alone]
+    reference = lives["reference_life_h"]
+    phases = [phase.model_copy(update={"damage": _damage(phase, reference)}) for phase in alone]
     mean_speed = sum(phase.share * phase.speed_rpm for phase in phases)
-    mean_loss = _sum([None if phase.power_loss_W is None else phase.share * phase.power_loss_W for phase in phases])
+    mean_loss = total([None if phase.power_loss_W is None else phase.share * phase.power_loss_W for phase in phases])
     return DutyCycle(
         name=name,
         case=case,
         cycle_h=total_time / 3600.0,
         phases=phases,
         basic_life_h=finite(lives["basic_life_h"]),
-        reference_life_h=finite(total),
+        reference_life_h=finite(reference),
         mean_load_N=_mean_load(phases, mean_speed),
         mean_speed_rpm=mean_speed,
         mean_power_loss_W=mean_loss,
-        energy_loss_kJ=_sum([phase.energy_loss_kJ for phase in phases]),
+        energy_loss_kJ=total([phase.energy_loss_kJ for phase in phases]),
         energy_loss_kWh_per_year=None if mean_loss is None else 1e-3 * mean_loss * YEAR,
         assumptions=list(assumptions),
     )
-
-
-def _sum(values: Sequence[float | None]) -> float | None:
-    """Return a sum.
-
-    None where a part of it is not known.
-    """
-    return None if None in values else sum(value for value in values if value is not None)
 
 
 def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case | MachineCase, list[_Step]]:
@@ -324,27 +383,16 @@ def _tables(path: Path) -> dict[str, Any]:
         raise CaseError(path.name, [Problem("", "is nested too deeply")]) from None
 
 
-def _solved(phase: _Step, case: Case, share: float, announce: Callable[[str], None] | None) -> PhaseResult:
+def _solved(case: Case, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
+    """Solve a phase of one bearing."""
     from lambda_core.solver.drivers.equilibrium import solve
 
-    model = ready_model(apply_overrides(case, phase.changes), announce=announce, is_static=True)
+    model = ready_model(apply_overrides(case, changes), announce=announce, is_static=True)
     found = solve(model, announce=announce)
-    rating: Rating = rating_of(found, registry().methods)
     loss, speed = float(sum(found.losses)), found.relative_speed
-    turns = speed > 0.0
-    return PhaseResult(
-        name=phase.name,
-        share=share,
-        speed_rpm=speed * 30.0 / math.pi,
-        equivalent_load_N=rating.equivalent_load_N,
-        basic_life_h=rating.basic_life_h if turns else None,
-        reference_life_h=rating.reference_life_h if turns else None,
-        damage=None,
-        friction_torque_Nmm=1e3 * loss / speed if turns else None,
-        power_loss_W=loss if turns else 0.0,
-        energy_loss_kJ=1e-3 * loss * phase.time if turns else 0.0,
-        warnings=operating_warnings(model),
-    )
+    torque = 1e3 * loss / speed if speed > 0.0 else None
+    own = SolvedBearing(rating_of(found, registry().methods), torque, loss, operating_warnings(model))
+    return SolvedPhase(speed * 30.0 / math.pi, {ALONE: own})
 
 
 def _written(value: bool | int | float | str) -> str:

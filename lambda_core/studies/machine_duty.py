@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from pydantic import Field
 
-from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium, equilibrium_of
+from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
 from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 from lambda_core.case.machine import MachineCase
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.life import system_life
 from lambda_core.results.averages import finite
+from lambda_core.results.machine_numbers import total
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
-from lambda_core.studies.duty_cycle import YEAR, DutyCycle, PhaseResult, duty_table, summed_phases
+from lambda_core.studies.duty_cycle import YEAR, DutyCycle, SolvedBearing, SolvedPhase, duty_table
 
 SYSTEM = (
     "life of all bearings: (sum L_i^-e)^(-1/e), e = 10/9 for balls, from L_10rh of each over the cycle "
@@ -76,88 +75,46 @@ class MachineDutyCycle(Record):
         return f"<MachineDutyCycle {self.name} of {self.case}, system life {life}>"
 
 
-@dataclass
 class MachinePhases:
     """Phases of a machine, solved in order.
 
     Laws are compiled once.
     """
 
-    announce: Callable[[str], None] | None = None
-    kernels: SharedKernels = field(init=False)
+    def __init__(self, case: MachineCase, announce: Callable[[str], None] | None) -> None:
+        self._case, self._announce, self._kernels = case, announce, SharedKernels(announce)
 
-    def __post_init__(self) -> None:
-        self.kernels = SharedKernels(self.announce)
+    def solved(self, changes: Sequence[str]) -> SolvedPhase:
+        """Solve one phase.
 
-    def solved_case(self, case: MachineCase, changes: Sequence[str]) -> MachineEquilibrium:
-        """Return the equilibrium of one phase.
-
-        SolverError where there is none.
+        SolverError where there is no equilibrium.
         """
-        model = ready_machine_of(case, changes, self.announce)
-        return equilibrium_of(model, solve_machine(model, self.announce, self.kernels))
+        model = ready_machine_of(self._case, changes, self._announce)
+        found = equilibrium_of(model, solve_machine(model, self._announce, self._kernels))
+        own = {
+            one.name: SolvedBearing(one.rating, one.friction_torque_Nmm, one.power_loss_W, one.warnings)
+            for one in found.bearings
+        }
+        return SolvedPhase(abs(found.speed_rpm), own, found.warnings)
 
 
-def added_machine(
-    name: str, case: str, phases: Sequence[tuple[str, float]], found: Sequence[MachineEquilibrium],
-    assumptions: Sequence[str],
-) -> MachineDutyCycle:  # fmt: skip
-    """Add up the phases of a machine.
-
-    Parameters
-    ----------
-    phases : sequence of (str, float)
-        Name and time of each [s].
-    found : sequence of MachineEquilibrium
-        Of each phase.
-    """
-    total_time = sum(time for _, time in phases)
-    bearings = {}
-    for number_, first in enumerate(found[0].bearings):
-        own = [
-            _phase(phase, time, time / total_time, state, state.bearings[number_])
-            for (phase, time), state in zip(phases, found, strict=True)
-        ]
-        bearings[first.name] = summed_phases(name, f"{case}, {first.name}", total_time, own, assumptions)
-    lives = [one.reference_life_h for one in bearings.values()]
-    damaging = [one for one in bearings.values() if one.mean_speed_rpm > 0.0]
+def joined_bearings(
+    name: str, case: str, bearings: dict[str, DutyCycle], warnings: list[str], assumptions: Sequence[str]
+) -> MachineDutyCycle:
+    """Join the sums of all bearings of a machine."""
+    each = bearings.values()
+    damaging = [one for one in each if one.mean_speed_rpm > 0.0]
     known = [one.reference_life_h for one in damaging if one.reference_life_h is not None]
-    loss = _total([one.mean_power_loss_W for one in bearings.values()])
+    loss = total(one.mean_power_loss_W for one in each)
     return MachineDutyCycle(
         name=name,
         case=case,
-        cycle_h=total_time / 3600.0,
+        cycle_h=next(iter(each)).cycle_h,
         bearings=bearings,
-        system_life_h=finite(system_life(known)) if any(lives) and len(known) == len(damaging) else None,
+        system_life_h=finite(system_life(known)) if known and len(known) == len(damaging) else None,
         mean_power_loss_W=loss,
-        energy_loss_kJ=_total([one.energy_loss_kJ for one in bearings.values()]),
+        energy_loss_kJ=total(one.energy_loss_kJ for one in each),
         energy_loss_kWh_per_year=None if loss is None else 1e-3 * loss * YEAR,
-        warnings=list(dict.fromkeys(text for state in found for text in state.warnings)),
+        warnings=warnings,
         assumptions=[*assumptions, SYSTEM],
     )
-
-
-def _phase(name: str, time: float, share: float, state: MachineEquilibrium, bearing: BearingEquilibrium) -> PhaseResult:
-    """Return one bearing in one phase."""
-    speed, loss = abs(state.speed_rpm), bearing.power_loss_W
-    return PhaseResult(
-        name=name,
-        share=share,
-        speed_rpm=speed,
-        equivalent_load_N=bearing.rating.equivalent_load_N,
-        basic_life_h=bearing.rating.basic_life_h if speed else None,
-        reference_life_h=bearing.rating.reference_life_h if speed else None,
-        damage=None,
-        friction_torque_Nmm=bearing.friction_torque_Nmm if speed else None,
-        power_loss_W=loss if speed else 0.0,
-        energy_loss_kJ=0.0 if not speed else None if loss is None else 1e-3 * loss * time,
-        warnings=bearing.warnings,
-    )
-
-
-def _total(values: Sequence[float | None]) -> float | None:
-    """Return a sum.
-
-    None where a part of it is not known.
-    """
-    return None if None in values else math.fsum(value for value in values if value is not None)
