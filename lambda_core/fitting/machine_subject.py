@@ -19,7 +19,7 @@ from lambda_core.domain.units import from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
 from lambda_core.fitting.subjects import vocabulary
 from lambda_core.results.model_band import FIELDS
-from lambda_core.studies.job import point_model, with_temperatures
+from lambda_core.studies.job import point_model, shared_kernels
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
@@ -265,10 +265,10 @@ def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
 
     The last points are kept, as several quantities are read from one.
     """
-    from lambda_core.studies.job import shared_kernels
+    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
     from lambda_core.studies.machine_responses import machine_point
 
-    model: MachineModel = with_temperatures(point_model(case_toml, changes))  # type: ignore[assignment]
+    model: MachineModel = ready_machine_of(point_model(case_toml, changes))  # type: ignore[arg-type]
     return machine_point(model, shared_kernels())
 
 

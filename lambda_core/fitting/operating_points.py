@@ -12,6 +12,7 @@ from lambda_core.analysis.band.changed import is_of_laws, with_value_of_laws
 from lambda_core.analysis.band.graded import Graded
 from lambda_core.analysis.band.quantities import TEMPERATURES, Condition
 from lambda_core.analysis.band.readings import READ, computed_temperature, read_values
+from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
 from lambda_core.domain.units import UNITS, from_si
@@ -19,7 +20,7 @@ from lambda_core.domain.written_values import DIGITS
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
-from lambda_core.studies.job import kernels_of, resolve_point, with_temperatures
+from lambda_core.studies.job import kernels_of, resolve_point
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -58,7 +59,9 @@ def point_values(case_toml: str, changes: Sequence[str], names: Sequence[str], *
     CaseError, SolverError
         When the case is not valid with these changes, or has no equilibrium.
     """
-    return _Point(with_temperatures(resolve_point(case_toml, tuple(changes), is_static=True))).values(names, one=one)
+    return _Point(ready_model(resolve_point(case_toml, tuple(changes), is_static=True), is_static=True)).values(
+        names, one=one
+    )
 
 
 class OperatingPoints:

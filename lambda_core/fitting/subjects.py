@@ -23,12 +23,12 @@ from lambda_core.analysis.band.quantities import (
     Vocabulary,
     error_quantity,
 )
-from lambda_core.analysis.thermal.temperatures import ready_rollers
+from lambda_core.analysis.thermal.temperatures import ready_model, ready_rollers
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
 from lambda_core.fitting.operating_points import ROLLER_QUANTITIES, OperatingPoints, roller_values
-from lambda_core.studies.job import resolve_point, with_temperatures
+from lambda_core.studies.job import resolve_point
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -116,12 +116,14 @@ class BearingSubject:
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""
-        model = with_temperatures(resolve_point(self._toml, tuple(changes), is_static=True))
+        model = ready_model(resolve_point(self._toml, tuple(changes), is_static=True), is_static=True)
         return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
 
     def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
         """Return both ends of each quantity's model band."""
-        found = band_alone(with_temperatures(resolve_point(self._toml, tuple(changes), is_static=True)), names)
+        found = band_alone(
+            ready_model(resolve_point(self._toml, tuple(changes), is_static=True), is_static=True), names
+        )
         return {one.quantity: [one.low, one.high] for one in found.bands}
 
 

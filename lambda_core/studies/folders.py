@@ -18,7 +18,7 @@ from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.results.model_band import FIELDS, MachineBand, ModelBand
 from lambda_core.studies.definition import Study, read_study, validate_study
 from lambda_core.studies.design import Plan
-from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, with_temperatures, work
+from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
 from lambda_core.studies.optimise import Best, best_row, search
 from lambda_core.studies.pool import HERE, pool, usable_cores
 from lambda_core.studies.responses import asks_currents
@@ -300,12 +300,13 @@ def _write_bands(manifest: Manifest) -> None:
     """Compute the model bands of the points that have results."""
     from lambda_core.analysis.band.neighbours import places_of
     from lambda_core.analysis.band.over_points import bands_over
+    from lambda_core.analysis.thermal.temperatures import ready
 
     points, names = manifest.done(), {h.name for h in manifest.headings() if h.kind == "response"}
     if not points or not names.intersection(_banded(manifest.case_toml)):
         return
     places = places_of(list(zip(*(coordinates for _, _, coordinates in points), strict=True)))
-    shares = bands_over(lambda row: with_temperatures(point_model(manifest.case_toml, points[row][1])), places)
+    shares = bands_over(lambda row: ready(point_model(manifest.case_toml, points[row][1])), places)
     rows = {number: row for row, (number, _, _) in enumerate(points)}
     none = [1.0, 1.0]  # of a point without a result
     found = {

@@ -7,17 +7,16 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import math
 import multiprocessing
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.plugin_errors import failures_so_far
 
 if TYPE_CHECKING:
@@ -26,11 +25,10 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Kernels
-    from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.machine_statics import MachineState, SharedKernels
-
-_Model = TypeVar("_Model", "BearingModel", "MachineModel", "BearingModel | MachineModel")
+    from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
+    from lambda_core.solver.drivers.machine_statics import SharedKernels
+    from lambda_core.studies.machine_responses import MachinePoint
+    from lambda_core.studies.responses import StaticPoint
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -84,12 +82,14 @@ def work(task: Task) -> Outcome:
     hash_, state, reason, values, file = "", "failed", "", {}, ""
     if _asked_to_stop:
         return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
+    from lambda_core.analysis.thermal.temperatures import ready
+
     failed = len(failures_so_far())
     try:
         _be_ready(task.guests)
         model = point_model(task.case_toml, task.changes)
         hash_ = point_hash(model)
-        model = with_temperatures(model)
+        model = ready(model)
         if task.mode == "quasi-static":
             state, values = "done", static_values(model, task.responses)
         else:
@@ -156,22 +156,6 @@ def _machine_tables(case_toml: str) -> dict[str, Any] | None:
     return tables if is_machine_case(tables) else None
 
 
-def with_temperatures(model: _Model) -> _Model:
-    """Return a model at its own temperatures.
-
-    The model is of a bearing or a machine whose case wants them computed.
-    """
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-    from lambda_core.analysis.thermal.operating import at_own_temperatures
-    from lambda_core.discovery.api import registry
-    from lambda_core.model.machine_model import MachineModel
-    from lambda_core.model.resolve import resolve
-
-    if isinstance(model, MachineModel):
-        return ready_machine_of(model)
-    return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
-
-
 def point_hash(model: BearingModel | MachineModel) -> str:
     """Return the hash of a point.
 
@@ -200,34 +184,37 @@ def _catalogue() -> Catalogue:
     return registry().catalogue()
 
 
-_kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
-
-
-def kernels_of(model: BearingModel) -> Kernels:
-    """Return the compiled laws of a model.
-
-    A process compiles equal choices of laws only once.
-    """
-    from lambda_core.solver.drivers.compiled_laws import Kernels
-
-    key = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
-    if key not in _kernels:
-        _kernels[key] = Kernels(model)
-    return _kernels[key]
-
-
-def _equilibrium(model: BearingModel) -> Equilibrium:
-    from lambda_core.solver.drivers.equilibrium import solve
-
-    return solve(model, kernels_of(model))
-
-
 @lru_cache(maxsize=1)
 def shared_kernels() -> SharedKernels:
-    """Return the compiled laws of machines in this process."""
+    """Return the compiled laws of this process.
+
+    Equal choices of laws are compiled only once.
+    """
     from lambda_core.solver.drivers.machine_statics import SharedKernels
 
     return SharedKernels()
+
+
+def kernels_of(model: BearingModel) -> Kernels:
+    """Return the compiled laws of a bearing in this process."""
+    return shared_kernels().of(model)
+
+
+def static_point(model: BearingModel | MachineModel, announce: Announce = None) -> StaticPoint | MachinePoint:
+    """Solve a bearing or a machine at a point.
+
+    Raises
+    ------
+    SolverError
+        When there is no solution.
+    """
+    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.studies.machine_responses import machine_point
+    from lambda_core.studies.responses import bearing_point
+
+    if isinstance(model, MachineModel):
+        return machine_point(model, shared_kernels(), announce)
+    return bearing_point(model, shared_kernels(), announce)
 
 
 def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) -> dict[str, float | None]:
@@ -238,93 +225,20 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
     SolverError
         When there is no solution.
     """
-    from lambda_core.model.machine_model import MachineModel
-    from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.studies.responses import StaticPoint, evaluate, responses_of
-
-    known = responses_of(model)
-    if isinstance(model, MachineModel):
-        from lambda_core.studies.machine_responses import machine_point
-
-        solved = machine_point(model, shared_kernels())
-        rows = {
-            name: value
-            for name, (value, _, _) in machine_columns(model, solved.state, solved.equilibria, names).items()
-        }
-        return evaluate(names, solved, rows, known)
-    found = _equilibrium(model)
-    point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
-    return evaluate(names, point, method_rows(found, names), known)
+    return values_of(static_point(model), model, names)
 
 
-def machine_columns(
-    model: MachineModel, state: MachineState, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
-) -> dict[str, tuple[float | None, str, str]]:
-    """Return columns of a machine's comparison methods.
+def values_of(
+    point: StaticPoint | MachinePoint, model: BearingModel | MachineModel, names: tuple[str, ...]
+) -> dict[str, float | None]:
+    """Return the responses of a solved point.
 
-    Value, unit and meaning of each bearing's rows among `names`.
+    UsageError for a row of a comparison method that does not exist.
     """
-    columns: dict[str, tuple[float | None, str, str]] = {}
-    for bearing, found, (x, y, z, *_) in zip(model.bearings, equilibria, state.reactions, strict=True):
-        own = f"{bearing.name}."
-        rows = tuple(name.removeprefix(own) for name in names if "/" in name and name.startswith(own))
-        for name, (value, unit, meaning) in method_columns(found, rows, (math.hypot(y, z), abs(x))).items():
-            columns[own + name] = (value, unit, f"{bearing.name}: {meaning}")
-    return columns
+    from lambda_core.studies.responses import evaluate, responses_of
 
-
-def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
-    """Return the chosen rows of comparison methods.
-
-    They are those among `names`, or None where a method does not apply.
-
-    Raises
-    ------
-    UsageError
-        For a row that does not exist.
-    """
-    return {name: value for name, (value, _, _) in method_columns(found, names).items()}
-
-
-def method_columns(
-    found: Equilibrium, names: tuple[str, ...], loads: tuple[float, float] | None = None
-) -> dict[str, tuple[float | None, str, str]]:
-    """Return columns of comparison methods.
-
-    Value, unit and meaning of the rows among `names`.
-
-    `loads` are radial and axial [N]; default: those of the bearing's case.
-    """
-    wanted = [name for name in names if "/" in name]
-    if not wanted:
-        return {}
-    from lambda_core.analysis.rating.compare_methods import comparison_inputs
-    from lambda_core.discovery.api import registry
-    from lambda_core.model.settings.contamination import known_contamination
-    from lambda_core.views.method import evaluate_methods
-
-    model = found.context.model
-    clean = known_contamination(model.contamination, model.geometry.pitch_diameter)
-    inputs = comparison_inputs(found, contamination=clean, loads=loads)
-    columns: dict[str, tuple[float | None, str, str]] = {}
-    for name in wanted:
-        label, _, row = name.partition("/")
-        group, _, item = row.partition("/")
-        method = registry().method(label)
-        (answer,) = evaluate_methods([method], inputs)
-        table = answer.table
-        if table is None:
-            why = "fails" if answer.failed else "does not apply"
-            columns[name] = (None, "", f"{label}: {item} ({why})")
-            continue
-        rows = {f"{r.group}/{r.name}": r for r in table.rows}
-        if row not in rows:
-            from lambda_core.domain.errors import unknown_name
-
-            raise UsageError(unknown_name(f"row of {label}", row, rows))
-        unit = rows[row].unit
-        columns[name] = (rows[row].value, "" if unit == "-" else unit, f"{label}: {group} {item}")
-    return columns
+    rows = {name: value for name, (value, _, _) in point.columns(names).items()}
+    return evaluate(names, point, rows, responses_of(model))
 
 
 def _dynamic(

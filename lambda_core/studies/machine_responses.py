@@ -8,7 +8,8 @@ methods ("left.skf/friction/total"). Bearing currents are those of the machine's
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -26,7 +27,9 @@ from lambda_core.studies.responses import RATED, RESPONSES, DynamicPoint, Number
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_modes import MachineModes, ModeAtSpeed
     from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.studies.method_columns import Columns
 
 
 @dataclass
@@ -85,6 +88,27 @@ class MachinePoint:
             self.model, self.state, [self.kernels.of(bearing.model) for bearing in self.model.bearings]
         )
 
+    @property
+    def each(self) -> list[Equilibrium]:
+        """Equilibria of all bearings, from left to right."""
+        return self.equilibria
+
+    def columns(self, names: Sequence[str]) -> Columns:
+        """Return the rows of comparison methods among names.
+
+        Their names and meanings begin with the bearing's name.
+        """
+        from lambda_core.studies.method_columns import method_columns
+
+        columns: Columns = {}
+        each = zip(self.model.bearings, self.equilibria, self.state.reactions, strict=True)
+        for bearing, found, (x, y, z, *_) in each:
+            own = f"{bearing.name}."
+            rows = [name.removeprefix(own) for name in names if "/" in name and name.startswith(own)]
+            for name, (value, unit, words) in method_columns(found, rows, (math.hypot(y, z), abs(x))).items():
+                columns[own + name] = (value, unit, f"{bearing.name}: {words}")
+        return columns
+
     def bearing(self, name: str) -> StaticPoint:
         """Return one bearing as a point of its own."""
         from lambda_core.results.quasistatic import quasistatic_of
@@ -97,9 +121,9 @@ class MachinePoint:
         return self._points[name]
 
 
-def machine_point(model: MachineModel, kernels: SharedKernels) -> MachinePoint:
+def machine_point(model: MachineModel, kernels: SharedKernels, announce: Announce = None) -> MachinePoint:
     """Solve a machine for a point of a study."""
-    return MachinePoint(model, solve_machine(model, kernels=kernels), kernels)
+    return MachinePoint(model, solve_machine(model, announce, kernels), kernels)
 
 
 @lru_cache(maxsize=8)

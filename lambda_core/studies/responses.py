@@ -36,9 +36,11 @@ if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Kernels
+    from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.solver.drivers.machine_statics import SharedKernels
     from lambda_core.studies.machine_responses import MachinePoint
+    from lambda_core.studies.method_columns import Columns
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"
@@ -71,6 +73,27 @@ class StaticPoint:
         from lambda_core.discovery.api import registry
 
         return rating_of(self.equilibrium, registry().methods)
+
+    @property
+    def each(self) -> list[Equilibrium]:
+        """Equilibria of all bearings: of this one."""
+        return [self.equilibrium]
+
+    def columns(self, names: Sequence[str]) -> Columns:
+        """Return the rows of comparison methods among names."""
+        from lambda_core.studies.method_columns import method_columns
+
+        return method_columns(self.equilibrium, names)
+
+
+def bearing_point(model: BearingModel, kernels: SharedKernels, announce: Announce = None) -> StaticPoint:
+    """Solve a bearing for a point of a study."""
+    from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    own = kernels.of(model, announce)
+    found = solve(model, own, announce)
+    return StaticPoint(found, quasistatic_of(found), own)
 
 
 @dataclass

@@ -15,18 +15,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError
 from lambda_core.studies.definition import Study
 from lambda_core.studies.design import Coordinate, Plan, Point
-from lambda_core.studies.job import (
-    kernels_of,
-    machine_columns,
-    method_columns,
-    point_model,
-    resolve_point,
-    static_values,
-    with_temperatures,
-)
+from lambda_core.studies.job import point_model, static_point, static_values, values_of
 from lambda_core.studies.responses import (
     Response,
-    asks_currents,
     bearing_names,
     chosen,
     method_rows_among,
@@ -303,53 +294,25 @@ def _probe(
     size : float
         Of one result file [byte].
     """
-    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.analysis.thermal.temperatures import ready
     from lambda_core.runs.estimate import estimate as estimate_run
-    from lambda_core.solver.drivers.equilibrium import solve
 
-    if isinstance(model, MachineModel):
-        return _probe_machine(study, model, names, rows, announce)
-    solve(with_temperatures(model), announce=announce)  # compiles or loads; not timed
+    asked = names if study.mode == "quasi-static" else rows
+    warm = ready(model)
+    point = static_point(warm, announce)
+    values_of(point, warm, asked)  # compiles or loads, also a circuit; not timed
+    columns = point.columns(rows)
     start = time.perf_counter()
-    resolved = with_temperatures(resolve_point(model.case_toml, ()))
-    found = solve(resolved, kernels_of(resolved))
-    columns = method_columns(found, rows)
+    static_values(ready(point_model(model.case_toml, ())), asked)
     seconds = time.perf_counter() - start
-    if asks_currents(names) and study.mode == "quasi-static":
-        static_values(resolved, names)  # compiles or loads the circuit; not timed
-        start = time.perf_counter()
-        static_values(resolved, names)
-        seconds += time.perf_counter() - start
     if study.mode == "quasi-static":
         return seconds, columns, 0.0
-    run = estimate_run(resolved, announce)
+    run = estimate_run(warm, announce)
     if run.processor_s is None or run.simulated_s is None:
         return math.nan, columns, math.nan
-    return seconds + run.processor_s, columns, _file_size(resolved, run.simulated_s, found.orbit)
-
-
-def _probe_machine(
-    study: Study, model: MachineModel, names: tuple[str, ...], rows: tuple[str, ...], announce: Announce
-) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
-    """Do for a machine what :func:`_probe` does for one bearing."""
-    from lambda_core.runs.estimate import estimate as estimate_run
-    from lambda_core.solver.drivers.machine_statics import solve_machine
-
-    warm = with_temperatures(model)
-    state = solve_machine(warm, announce)  # compiles or loads; not timed
-    equilibria = [ring.equilibrium() for ring in state.rings]
-    columns = machine_columns(warm, state, equilibria, rows)
-    if study.mode == "dynamic":
-        run = estimate_run(warm, announce)
-        if run.processor_s is None or run.simulated_s is None:
-            return math.nan, columns, math.nan
-        each = zip(warm.bearings, equilibria, strict=True)
-        size = sum(_file_size(bearing.model, run.simulated_s, found.orbit) for bearing, found in each)
-        return run.processor_s, columns, size
-    static_values(warm, names)
-    start = time.perf_counter()
-    static_values(with_temperatures(point_model(model.case_toml, ())), names)
-    return time.perf_counter() - start, columns, 0.0
+    each = zip(warm.bearing_models.values(), point.each, strict=True)
+    size = sum(_file_size(one, run.simulated_s, found.orbit) for one, found in each)
+    return seconds + run.processor_s, columns, size
 
 
 def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:

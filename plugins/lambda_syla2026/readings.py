@@ -47,11 +47,12 @@ def friction(model: BearingModel) -> Numbers:
 
     It is the mean over the positions of the balls, without a cage.
     """
+    from lambda_core.analysis.thermal.temperatures import ready_model
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.records import CONTACT_CHANNELS
-    from lambda_core.studies.job import kernels_of, with_temperatures
+    from lambda_core.studies.job import kernels_of
 
-    model = with_temperatures(model)
+    model = ready_model(model)
     kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
     for phase, weight in _PHASES.items():
         found = solve(model, kernels, phase=phase)

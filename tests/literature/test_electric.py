@@ -13,9 +13,9 @@ from lambda_core import api
 from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria, films
 from lambda_core.analysis.electric.simulation import simulate
+from lambda_core.analysis.thermal.temperatures import ready
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.case.electric import Electric
-from lambda_core.studies.job import with_temperatures
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -71,7 +71,7 @@ def rig(speed: int, radial: int = 1800, axial: int = 900, temperatures: str = "g
             "machine": {"winding_rotor": "1000 nF", "other_bearings": "0 pF"},
         },
     )
-    return with_temperatures(api.check(case))
+    return ready(api.check(case))
 
 
 def first_breakdown(model: BearingModel, seeds: int = 15) -> float:

@@ -265,11 +265,11 @@ class SharedKernels:
         self._announce = announce
         self._known: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
 
-    def of(self, model: BearingModel) -> Kernels:
+    def of(self, model: BearingModel, announce: Announce = None) -> Kernels:
         """Return the compiled laws of a bearing."""
         choice = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
         if choice not in self._known:
-            self._known[choice] = Kernels(model, self._announce)
+            self._known[choice] = Kernels(model, announce or self._announce)
         return self._known[choice]
 
 
@@ -293,7 +293,7 @@ def solve_machine(model: MachineModel, announce: Announce = None, kernels: Share
     if model.awaits_temperatures:
         raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
     shared = kernels or SharedKernels(announce)
-    rings = [_ring(bearing, shared.of(bearing.model), announce) for bearing in model.bearings]
+    rings = [_ring(bearing, shared.of(bearing.model, announce), announce) for bearing in model.bearings]
     system = _System(model, rings, shared.of(model.bearings[0].model))
     _refuse_loose(system)
     q = _first_guess(system)
