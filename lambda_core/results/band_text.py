@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lambda_core.domain.number_text import NONE, rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.results.model_band import LEAST_SHARE, NARROW, TEMPERATURES, ModelBand
+from lambda_core.results.model_band import FIELDS, LEAST_SHARE, NARROW, TEMPERATURES, Banded, ModelBand
 
 
 def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
@@ -48,6 +48,36 @@ def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bo
     half = 0.5 * abs(high - low)
     text = f"{rounded(low, half)} .. {rounded(high, half)}"
     return f"{text} {units.unit(unit)}" if named else text
+
+
+def band_text(band: ModelBand | None, quantity: str, units: UnitSystem = SI) -> str:
+    """Return a quasi-static result with its band.
+
+    Empty where there is none.
+    """
+    for one in band.bands if band is not None else ():
+        if one.quantity == quantity:
+            return banded(one.value, (one.low, one.high), one.unit, units.text(one.value, one.unit, 3), units)
+    return ""
+
+
+def band_rows(each: Sequence[Banded], units: UnitSystem = SI) -> list[tuple[str, list[str]]]:
+    """Return rows of bands of a machine's bearings.
+
+    A row has the name of a result with its unit, and a cell for each bearing. The torque has its row elsewhere, and so
+    have temperatures.
+    """
+    found: list[tuple[str, list[str]]] = []
+    for quantity, name in FIELDS.items():
+        bands: list[Sequence[float]] = [getattr(one, f"{name}_band") for one in each]
+        if quantity == "friction torque" or quantity in TEMPERATURES or not any(bands):
+            continue
+        unit = next(
+            own.unit for one in each if one.model_band for own in one.model_band.bands if own.quantity == quantity
+        )
+        head = f"{quantity} {units.unit(unit)}"
+        found.append((f"  {head}" if found else f"band {head}", [ends(one, unit, units) for one in bands]))
+    return found
 
 
 def named_sources(bands: Mapping[str, ModelBand | None], units: UnitSystem = SI) -> list[str]:

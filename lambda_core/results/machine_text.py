@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import wrapped
-from lambda_core.results.band_text import ends, named_sources
+from lambda_core.results.band_text import band_rows, ends, named_sources
 from lambda_core.results.quantity import quantities, shown
 from lambda_core.results.text import assumption_lines, element_lines, line, warning_lines, watched_lines
 
@@ -103,7 +103,7 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     for k, axis in enumerate("xyz"):
         head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {units.unit('N')}"
         rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))
-    return rows
+    return [*rows, *band_rows(each, units)]
 
 
 def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> Iterator[tuple[str, list[str]]]:

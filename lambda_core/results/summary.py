@@ -327,17 +327,13 @@ def _of_rollers(found: BearingSummary, result: Result) -> BearingSummary:
 
     It lacks what holds for balls alone: shoulders, limits of tilt and pressure.
     """
-    left_out = {"rating life", "capacitance", "bearing capacitance"}
-    band = result.model_band
-    if band is not None:
-        band = band.model_copy(update={"bands": [one for one in band.bands if one.quantity not in left_out]})
     verdict = found.verdict
     beyond = [] if verdict is None or verdict.met else [verdict.sentence]
     changes: dict[str, Any] = {
         "shoulders": [],
         "warnings": [*result.case_warnings, *tolerance_warning(settings_of(result).tolerance), *beyond],
     }
-    return found.model_copy(update=changes).with_band(band)
+    return found.model_copy(update=changes).with_band(result.model_band)
 
 
 def _iteration_residual(statistics: Mapping[str, float], run_interval: Interval) -> float | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
-from lambda_core.results.band_text import banded, ends, source_lines, temperature_text
+from lambda_core.results.band_text import band_text, banded, ends, source_lines, temperature_text
 from lambda_core.results.quantity import quantities, remaining, shown
 
 if TYPE_CHECKING:
@@ -314,7 +314,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *_motion_lines(found, element, units),
         *(_rib_lines(own, units) if own is not None else []),
         *shoulder_lines(found.shoulders, units),
-        *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
+        *_capacitance_line(found, units),
         *other_lines(found, units),
         *band_lines(found.model_band, units),
         *table,
@@ -374,12 +374,21 @@ def _motion_lines(found: QuasiStatic, element: str, units: UnitSystem) -> list[s
     if found.friction_torque_Nmm is None:
         return []
     own = found.rollers
+    least, central = band_text(found.model_band, "minimum film", units), shown(found, "film_um", units)
+    films = (f"minimum {least}", f"central {central}") if least else (central,)
     factors = () if own is None else (f"heat {number(own.heat_factor, 3)}", f"supply {number(own.supply_factor, 3)}")
     return [
         *([line("rolling factors", *factors)] if factors else []),
         line(f"{element} orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
-        line("film", shown(found, "film_um", units), f"Lambda {shown(found, 'film_parameter')}"),
+        line("film", *films, f"Lambda {shown(found, 'film_parameter')}"),
     ]
+
+
+def _capacitance_line(found: QuasiStatic, units: UnitSystem) -> list[str]:
+    """Return the capacitance that has a band, and what shorts."""
+    known = band_text(found.model_band, "capacitance", units)
+    texts = [f"bearing {known}" if known else "", found.capacitance_note]
+    return [line("capacitance", *texts)] if any(texts) else []
 
 
 def _rib_lines(own: RollerStatics, units: UnitSystem) -> list[str]:

@@ -505,3 +505,30 @@ def test_the_band_of_a_6308_holds_two_independent_models_and_not_the_formula_of_
     assert combined.rating is not None
     assert combined.rating.skf_torque_Nmm is not None
     assert combined.rating.skf_torque_Nmm > 1.2 * high
+
+
+@pytest.mark.parametrize("designation", ["SKF 6208", "SKF NU 208 ECP"])
+def test_texts_show_the_band_of_every_result(designation: str, tmp_path: Path) -> None:
+    """Print the bands of film, pressure, life and capacitance.
+
+    The text of an equilibrium had none of film and capacitance, and that of a run of rollers none of the life.
+    """
+    tables = {
+        "name": "one", "bearing": {"designation": designation}, "operation": {"speed": "3000 rpm"},
+        "loads": {"radial": "2 kN"}, "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    }  # fmt: skip
+    number = r"[\d.]+ \w+ \(model [\d.]+ \.\. [\d.]+\)"
+    run = api.run(tables, ["solver.duration=1 ms"], out=tmp_path / "one.h5", band=True).summary()
+    for text in (api.quasistatic(tables, band=True).text(), run.text()):
+        assert re.search(rf"film +minimum {number}", text)
+        assert re.search(rf"p_max {number}", text)
+        assert re.search(r"L_10rh by the model band [\d ]+ \.\. [\d ]+ h", text)
+        assert bool(re.search(rf"capacitance .*bearing {number}", text)) == designation.startswith("SKF 6")
+
+
+def test_the_text_of_a_machine_shows_the_bands_of_its_bearings(tmp_path: Path) -> None:
+    tables = tomllib.loads(geared_shaft("box"))
+    run = api.run(tables, ["solver.duration=1 ms"], out=tmp_path / "box.h5", band=True).summary()
+    for text in (api.quasistatic(tables, band=True).text(), run.text()):
+        for head in ("band power loss W", "minimum film um", "maximum pressure GPa", "capacitance nF", "rating life h"):
+            assert re.search(rf"{head} +[\d. ]+ \.\. [\d. ]+ +[\d. ]+ \.\. [\d. ]+\n", text), head

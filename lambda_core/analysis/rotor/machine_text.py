@@ -12,7 +12,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.describe import assumption_block, verdict_line
 from lambda_core.model.checks.operating_limits import operating_warnings
-from lambda_core.results.band_text import ends, named_sources
+from lambda_core.results.band_text import band_rows, ends, named_sources
 from lambda_core.results.quantity import Quantity, quantities
 from lambda_core.results.rating import Rating
 from lambda_core.results.text import contamination_text, line
@@ -95,7 +95,14 @@ def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem)
             rows.append(_Row(one.column, one.unit, lambda b, q=one: getattr(b, q.name), quantity=one))  # type: ignore[misc]
         if one.name == "friction_torque_Nmm" and any(bearing.friction_torque_Nmm_band for bearing in bearings):
             rows.append(_Row("  model band", "", lambda b: ends(b.friction_torque_Nmm_band, "N mm", units)))
-    return (*rows, *_STIFFNESS)
+    bands = [_ready(head, bearings, cells) for head, cells in band_rows(bearings, units)]
+    return (*rows, *_STIFFNESS, *bands)
+
+
+def _ready(head: str, bearings: Sequence[BearingEquilibrium], cells: Sequence[str]) -> _Row:
+    """Return a row whose cells are written."""
+    texts = {bearing.name: cell for bearing, cell in zip(bearings, cells, strict=True)}
+    return _Row(head, "", lambda b: texts[b.name])
 
 
 def _of_rating(one: Quantity) -> _Row:
