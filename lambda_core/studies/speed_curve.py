@@ -5,7 +5,8 @@ It has the friction torque over speed with its parts, and SKF's catalogue model.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
+    from lambda_core.solver.drivers.compiled_laws import Kernels
 
 _RPM = np.pi / 30.0
 # Mechanisms of losses under the names that the picture shows.
@@ -43,6 +45,7 @@ _PARTS = {
 _PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
 _LOOKS = {"sliding of the film": 1, "sliding on asperities": 2, "rolling of the film": 3, "hysteresis": 4, "drag": 5}
 SLOWEST = 1.0  # [1/min]
+_LEAST_STEP = 0.9  # ratio of speeds between which the way to an equilibrium is not halved again
 FASTEST_FACTOR = 5e5  # n d_m, the usual limit of the catalogues [mm/min]
 
 
@@ -133,7 +136,7 @@ def stribeck(
         mean_diameter = 500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter)
         given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
     kernels = Kernels(model)
-    found = [_point(model_at(speed), kernels) for speed in given]
+    found = _points(model_at, given, kernels)
     torques = [sum(parts.values()) for parts, _, _ in found]
     names = dict.fromkeys(_PARTS.values())
     return SpeedCurve(
@@ -181,17 +184,57 @@ def _bands(
     return [] if shares is None else (shares * np.array(torques)[:, None]).tolist()
 
 
-def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
-    """Return the torque and Lambda at one speed.
+def _points(
+    model_at: Callable[[float], BearingModel], speeds: Sequence[float], kernels: Kernels
+) -> list[tuple[dict[str, float], float | None, float]]:
+    """Return torque and Lambda at every speed.
 
-    Return the parts [N mm], SKF's torque [N mm] and the smallest Lambda.
+    A slow, skewed roller leans on a rib or runs free between both: rollers start from the next faster speed, where
+    films leave one equilibrium. Balls start anew at every speed.
     """
     from lambda_core.solver.drivers.equilibrium import solve
 
+    found, near, faster = {}, dict[float, Any](), 0.0
+    for speed in sorted(set(speeds), reverse=True):
+        model = model_at(speed)
+        for phase in _PHASES:
+            start = near.get(phase)
+            if model.rollers is not None and start is not None:
+                near[phase] = _follow(model_at, kernels, start, faster, speed)
+            else:
+                near[phase] = solve(model, kernels, phase=phase)
+        found[speed], faster = _point(near), speed
+    return [found[speed] for speed in speeds]
+
+
+def _follow(model_at: Callable[[float], BearingModel], kernels: Kernels, near: Any, faster: float, speed: float) -> Any:
+    """Return the equilibrium at a speed, from a faster one.
+
+    Where none is found the way is halved; what is not found in steps of a tenth starts anew.
+    """
+    from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.solver.drivers.near_equilibrium import continue_at_speed
+
+    model = model_at(speed)
+    try:
+        return continue_at_speed(model, near, kernels)
+    except SolverError:
+        if speed > _LEAST_STEP * faster:
+            return solve(model, kernels, phase=near.phase)
+    middle = math.sqrt(faster * speed)
+    near = _follow(model_at, kernels, near, faster, middle)
+    return _follow(model_at, kernels, near, middle, speed)
+
+
+def _point(solved: Mapping[float, Any]) -> tuple[dict[str, float], float | None, float]:
+    """Return the torque and Lambda at one speed.
+
+    Return the parts [N mm], SKF's torque [N mm] and the smallest Lambda, of the equilibria by phase.
+    """
     parts = dict.fromkeys(_PARTS.values(), 0.0)
     film = np.inf
     for phase, weight in _PHASES.items():
-        found = solve(model, kernels, phase=phase)
+        found = solved[phase]
         torque = 1e3 * found.losses / found.relative_speed
         for name, value in zip(LOSSES, torque.tolist(), strict=True):
             mechanism = name.split("_")[0]

@@ -81,3 +81,15 @@ def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixt
 def test_mistakes_are_named(words: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["stribeck", CASE, *words, "--quiet"]) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.full
+def test_rollers_start_from_the_next_faster_speed() -> None:
+    """Follow the skewed rollers of a belt to low speeds.
+
+    A start without them found no equilibrium at 30 1/min, and others than its neighbours at lower speeds.
+    """
+    shaft = Path(__file__).parents[2] / "examples" / "roller-shafts" / "motor.toml"
+    few, more = (api.stribeck(shaft, bearing="belt", speeds_rpm=[*slow, 30.0, 300.0, 3000.0]) for slow in ([], [3.0]))
+    assert more.torque_Nmm[1:] == few.torque_Nmm
+    assert few.torque_Nmm[0] == pytest.approx(27.6, rel=0.02)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from lambda_core.domain.elements import SPIN
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils
@@ -64,4 +66,27 @@ def solve_near(
         return solve(model, kernels, phase=near.phase)
     if are_balls and (context.driven != near.context.driven).any():
         return solve(model, kernels, phase=near.phase)
+    return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
+
+
+def continue_at_speed(model: BearingModel, near: Equilibrium, kernels: Kernels | None = None) -> Equilibrium:
+    """Follow an equilibrium of rollers to another speed.
+
+    The search starts from that at a speed nearby, with the speeds of all rollers in proportion, and so keeps to one of
+    several equilibria.
+
+    Raises
+    ------
+    SolverError
+        When none is found from there.
+    """
+    state, bundle = near.state.copy(), near.context.bundle
+    inner, outer = (initial(ring.dofs[SPIN].motion) for ring in (model.inner_ring, model.outer_ring))
+    share, elements = abs(inner - outer) / near.relative_speed, L.elements_in(bundle, state)
+    elements["velocity"] *= share
+    elements["spin"] *= share
+    kernels = kernels or Kernels(model)
+    context = assemble(model, kernels, near.context.frame, derive_oils(model, kernels, near.context.frame))
+    compiled = core(None)
+    report = continue_static(compiled, context, state, friction=True)
     return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
