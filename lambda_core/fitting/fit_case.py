@@ -325,6 +325,8 @@ def _sentence(found: Fit, free: Sequence[str]) -> str:
     """Say in one sentence what the data determine."""
     held = [found.parameters[index].name for index in found.held]
     count = found.data.values.size
+    if found.is_interrupted:
+        return f"Interrupted: of {_list(free or held)} these are the best values so far."
     if not free:
         return f"The {count} measured values determine none of the parameters {_list(held)}."
     text = f"The {count} measured values determine {_list(free)}"
@@ -344,7 +346,9 @@ def _list(names: Sequence[str]) -> str:
 def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
     warnings = []
     if found.is_interrupted:
-        warnings.append("The fit was interrupted: these are the best values so far; the other results are missing.")
+        warnings.append(
+            "The fit was interrupted: errors count what is known so far, at most the ranges; other results are missing."
+        )
     patterns = [test for test in found.tests if test.is_significant]
     if patterns:
         first = patterns[0]

@@ -143,7 +143,7 @@ class Fit:
     @property
     def leverages(self) -> FloatArray:
         """Leverage of each point on the fit."""
-        if not self.free:
+        if not self.jacobian[:, self.free].any():  # all are held, or the search was stopped before it had slopes
             return np.zeros(self.data.values.size)
         weighted = self.jacobian[:, self.free] / self.errors[:, None]
         return U.leverages(weighted, U.huber_weights(self.standardised, self.limit))
@@ -339,7 +339,9 @@ class _Search:
         data, parameters, count = self._data, self._parameters, len(self._parameters)
         free = [index for index in range(count) if index not in self._held]
         matrix, factor = np.zeros((count, count)), self._factor()
-        if free:
+        if self._interrupted:
+            matrix = self._known_so_far(factor)
+        elif free:
             matrix[np.ix_(free, free)] = U.covariance(self._weighted(free), factor)
         slopes = self._slopes()
         weighted = slopes / (self._errors * self._scale)[:, None]
@@ -347,17 +349,30 @@ class _Search:
         low, high = bounds(parameters)
         margin = _AT_LIMIT * np.where(np.isfinite(high - low), high - low, 0.0)
         at_limit = (self._point - low < margin) | (high - self._point < margin)
+        parts = U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR) if slopes.any() else []
         found = Fit(
             parameters, data, self._point, matrix, tuple(self._held),
-            tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, slopes,
-            U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR), self._scale, factor, self._limit, [],
-            self._recorder.evaluations, self._interrupted,
+            tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, slopes, parts,
+            self._scale, factor, self._limit, [], self._recorder.evaluations, self._interrupted,
         )  # fmt: skip
         if self._interrupted or found.degrees < 1:
             return found
         clipped = np.clip(found.standardised, -self._limit, self._limit)
         tests = residual_tests(clipped, weighted[:, free], data.columns, is_error_known=data.is_error_known)
         return replace(found, tests=tests)
+
+    def _known_so_far(self, factor: float) -> FloatArray:
+        """Return the covariance after an interruption.
+
+        The data may not have told anything yet: then it is that of the ranges.
+        """
+        slopes = self._slopes() / (self._errors * self._scale)[:, None]
+        free = np.isin(np.arange(slopes.shape[1]), self._held, invert=True)
+        information = slopes.T @ slopes / (factor if factor > 0.0 else 1.0)
+        information[np.diag_indices_from(information)] += 1.0 / spreads(self._parameters) ** 2
+        size = 1.0 / np.sqrt(np.diag(information))
+        matrix: FloatArray = np.linalg.pinv(information * np.outer(size, size)) * np.outer(size, size)
+        return matrix * np.outer(free, free)
 
     def _predicted(self) -> FloatArray:
         return self._recorder.values(self._point)

@@ -18,6 +18,7 @@ from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.fitting import fit_case
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
+from lambda_core.fitting.problem import CaseProblem
 from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import subject_of
 
@@ -206,6 +207,29 @@ def test_an_interruption_after_the_search_keeps_its_values(stage: str, monkeypat
     assert report.posterior is None
     assert (report.next_point is None) == (stage != "_posterior")
     assert any("interrupted" in warning for warning in report.warnings)
+
+
+def test_an_early_interruption_keeps_values_with_the_errors_of_their_ranges(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Stop before the data have told anything.
+
+    The errors were 1e150, and so was the one in the fitted case.
+    """
+
+    def interrupted(problem: CaseProblem, values: np.ndarray) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(CaseProblem, "jacobian", interrupted)
+    report = api.fit(CASE, parse_measurements(FEW, "rig.csv"), ["loss_factor"])
+    (loss,) = report.parameters
+    assert report.is_interrupted
+    assert loss.low <= loss.value <= loss.high
+    assert loss.posterior_error <= loss.high - loss.low
+    assert "determine" not in report.sentence
+    assert report.left_out_rms_error_pct == pytest.approx(report.rms_error_pct)
+    assert "e1" not in report.text()
+    api.quasistatic(api.fitted_case(CASE, report, tmp_path / "fitted.toml"), band=True)
 
 
 def test_points_to_predict_are_read_before_the_fit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
