@@ -136,6 +136,7 @@ def test_other_answers_answer_for_a_changed_case() -> None:
     warmer = warm.with_(thermal={"ambient": "40 degC"}).temperatures_degC
     assert all(warmer[part] > value for part, value in warm.temperatures_degC.items())
     course = api.warm_up("6208-axial-1300", 20.0, ["thermal.ambient=10 degC"])
+    assert "model band       of steady temperatures only" in course.text()
     assert course.with_(thermal={"ambient": "30 degC"}).time_s[-1] == course.time_s[-1] == 20.0
     curve = api.stribeck("6208-axial-1300", speeds_rpm=[500.0, 1000.0])
     assert curve.with_(loads={"axial": "2 kN"}).torque_Nmm[0] > curve.torque_Nmm[0]

@@ -195,6 +195,7 @@ def course_text(found: TemperaturesOverTime, units: UnitSystem) -> str:
     ]
     if found.gain is not None:
         lines.append(line("loop gain", _gain_text(found.gain)))
+    lines.append(line("model band", "of steady temperatures only (without --transient)"))
     lines += _assumed(found, units)
     if found.reason:
         lines.append(line("ENDED EARLY", units.sentence(found.reason)))
