@@ -265,7 +265,7 @@ def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
 
     The last points are kept, as several quantities are read from one.
     """
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.studies.machine_responses import machine_point
 
     model: MachineModel = ready_machine_of(point_model(case_toml, changes))  # type: ignore[arg-type]

@@ -345,6 +345,11 @@ class BearingModel:
         return change(self)
 
     @property
+    def awaits_temperatures(self) -> bool:
+        """True where temperatures are still to be computed."""
+        return self.thermal is not None
+
+    @property
     def elements(self) -> str:
         """Name of the rolling elements."""
         return "balls" if self.rollers is None else "rollers"

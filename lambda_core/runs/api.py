@@ -67,7 +67,7 @@ def quasistatic(
 
     if is_machine(source):
         from lambda_core.analysis.rotor.api import machine_equilibrium
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+        from lambda_core.analysis.thermal.temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*machine.bearing_models.values()):

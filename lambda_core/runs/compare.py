@@ -129,7 +129,7 @@ def _compare_in_machine(
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
     from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.runs.compare_rollers import compare_rollers
     from lambda_core.runs.comparison import comparison_of
     from lambda_core.solver.drivers.machine_statics import solve_machine

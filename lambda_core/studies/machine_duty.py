@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import Field
 
 from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
-from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+from lambda_core.analysis.thermal.temperatures import ready_machine_of
 from lambda_core.case.machine import MachineCase
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem

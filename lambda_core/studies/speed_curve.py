@@ -162,7 +162,7 @@ def _models(
     """
     if is_machine(source):
         from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+        from lambda_core.analysis.thermal.temperatures import ready_machine_of
 
         alone = bearing_alone(ready_machine_of(source, changes, announce), bearing, announce)
         return lambda speed: at_speed(alone, speed * _RPM)

@@ -10,8 +10,9 @@ import pytest
 from warm_bearings import preloaded
 
 from lambda_core import api
-from lambda_core.analysis.thermal.feedback import BearingLoop, Runaway
+from lambda_core.analysis.thermal.feedback import Runaway
 from lambda_core.analysis.thermal.losses import LossMap
+from lambda_core.analysis.thermal.operating import BearingLoop
 from lambda_core.analysis.thermal.report import State, SteadyTemperatures
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, SolverError
@@ -132,7 +133,7 @@ def test_a_loss_too_high_without_feedback_is_no_runaway() -> None:
 
 def test_the_map_of_losses_is_what_it_interpolates(ordinary: dict[str, Any]) -> None:
     loop = loop_of(ordinary)
-    known = LossMap(loop.losses, 313.15, 12e-6)
+    known = LossMap(loop.losses.at, 313.15, 12e-6)
     corner, middle = known.at(313.15, 12e-6), known.at(314.15, 12.5e-6)
     assert corner.values == pytest.approx(loop.losses.at(313.15, 12e-6).values)
     exact = loop.losses.at(314.15, 12.5e-6)

@@ -18,10 +18,10 @@ from warm_machines import pair
 from lambda_core import api
 from lambda_core.analysis.thermal.conductances import rod
 from lambda_core.analysis.thermal.feedback import Runaway
-from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.report import SteadyTemperatures
 from lambda_core.analysis.thermal.surroundings import long_fin
+from lambda_core.analysis.thermal.temperatures import ready_machine_of
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.formulas.elastic.sections import BodyMaterial

@@ -90,9 +90,7 @@ def constant_loop(network: Network, capacity: float) -> SimpleNamespace:
     values = np.ones(len(LOSSES) + 9)
     return SimpleNamespace(
         nodes=_Constant(network, capacity),
-        losses=SimpleNamespace(
-            at=lambda inlet, clearance: Point(inlet, clearance, values),
-        ),
+        solved=lambda seen: (Point(*seen.tolist(), values),),
         count=1,
         thermal=SimpleNamespace(limit=1e4),
         seen=lambda temperatures: np.array([AMBIENT, 0.0]),

@@ -14,9 +14,9 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.analysis.thermal.feedback import BearingLoop
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.analysis.thermal.losses import Point
+from lambda_core.analysis.thermal.operating import BearingLoop
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import ModelBand

@@ -88,7 +88,7 @@ def model_band(
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
     if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+        from lambda_core.analysis.thermal.temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         return _of_machine(machine, quantities, bearing, announce)

@@ -29,7 +29,7 @@ def machine_equilibrium(
 ) -> MachineEquilibrium:
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
     from lambda_core.solver.drivers.preload import preloads
 
@@ -75,7 +75,7 @@ def modes(
         With a sentence about the case, or about why there is no equilibrium.
     """
     from lambda_core.analysis.rotor.machine_modes import modes_of
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.case.case_io import is_machine
     from lambda_core.solver.drivers.machine_statics import solve_machine
 

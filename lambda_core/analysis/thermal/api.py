@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
@@ -13,8 +12,6 @@ from lambda_core.results.answer import answers
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from lambda_core.analysis.thermal.feedback import Steady
-    from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
     from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
@@ -61,30 +58,19 @@ def thermal(
         When there are no steady temperatures: a runaway is named with the gain that caused it.
     """
     from lambda_core.analysis.band.model_band import temperature_band
-    from lambda_core.analysis.thermal.temperatures import run_of, steady_temperatures
-
-    if is_machine(source):
-        loop = _loop(source, overrides, announce)
-        return _of_machine(loop, loop.steady(), "quasi-static point", band=band)
+    from lambda_core.analysis.thermal.report import steady_of
+    from lambda_core.analysis.thermal.temperatures import loop_of, of_run, run_of
 
     run = run_of(source)
-    if run is not None and listed(overrides, "overrides"):
-        raise UsageError("the losses of a run accept no overrides: change its case and run it again")
-    if run is not None and run.is_machine:
-        from lambda_core.analysis.thermal.machine_temperatures import of_run
-
-        return _of_machine(*of_run(run, announce), f"averages of {run.path}", band=band)
-    answer, warm = steady_temperatures(source, overrides, announce)  # type: ignore[arg-type]
-    return answer.with_band(temperature_band(warm())) if band else answer
-
-
-def _of_machine(loop: MachineLoop, found: Steady, origin: str, *, band: bool) -> SteadyTemperatures:
-    from lambda_core.analysis.band.model_band import temperature_band
-    from lambda_core.analysis.thermal.machine_temperatures import machine_at_temperatures
-    from lambda_core.analysis.thermal.report import steady_of
-
+    if run is not None:
+        if listed(overrides, "overrides"):
+            raise UsageError("the losses of a run accept no overrides: change its case and run it again")
+        (loop, found), origin = of_run(run, announce), f"averages of {run.path}"
+    else:
+        loop, origin = loop_of(source, overrides, announce), "quasi-static point"
+        found = loop.steady()
     answer = steady_of(loop, found, origin)
-    return answer.with_band(temperature_band(machine_at_temperatures(loop, found))) if band else answer
+    return answer.with_band(temperature_band(loop.model_at(found))) if band else answer
 
 
 @answers
@@ -125,15 +111,12 @@ def warm_up(
     """
     if not duration > 0.0:
         raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
-    if is_machine(source):
-        from lambda_core.analysis.thermal.report import course_of
-        from lambda_core.analysis.thermal.transient import warm_up_machine
+    from lambda_core.analysis.thermal import transient
+    from lambda_core.analysis.thermal.report import course_of
+    from lambda_core.analysis.thermal.temperatures import loop_of
 
-        loop = _loop(source, overrides, announce)
-        return course_of(loop, warm_up_machine(loop, duration))
-    from lambda_core.analysis.thermal.temperatures import temperatures_over_time
-
-    return temperatures_over_time(source, duration, overrides, announce)  # type: ignore[arg-type]
+    loop = loop_of(source, overrides, announce)
+    return course_of(loop, transient.warm_up(loop, duration))
 
 
 def thermal_pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[ViewData]:
@@ -152,10 +135,3 @@ def thermal_pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[V
     from lambda_core.analysis.thermal.charts import pictures
 
     return pictures(found)
-
-
-def _loop(source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None) -> MachineLoop:
-    from lambda_core.analysis.rotor.api import machine_of
-    from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
-
-    return MachineLoop(without_temperatures(machine_of(source, overrides)), announce)

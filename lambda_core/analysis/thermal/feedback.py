@@ -9,26 +9,23 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from lambda_core.analysis.thermal.losses import Announce, Losses, Point
+from lambda_core.analysis.thermal.losses import Point
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.network import Network
-from lambda_core.analysis.thermal.pillow_block import bearing_network
-from lambda_core.analysis.thermal.surroundings import housing_area
-from lambda_core.case.short_form import NAME
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.checks.describe import headline
-from lambda_core.model.laws.time_functions import initial
-from lambda_core.model.settings.resolve_thermal import network_assumptions
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
 
 _ZERO_CELSIUS = 273.15
-_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
+PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 _STAND_IN = {"shaft": "inner_ring", "housing": "outer_ring"}  # where the network has no such node
 INLET_STEP, LENGTH_STEP = 0.5, 0.5e-6  # of inlet temperatures [K], of clearances and growth [m], for slopes
 _NETWORK_ROUNDS = 50  # conductances to the air change as a fourth root of the temperature: some ten suffice
@@ -114,8 +111,13 @@ def clearance_at(model: BearingModel, at: Mapping[str, float]) -> float:
 
     It holds at temperatures of its own nodes [K].
     """
-    warm = {part: at.get(part, at.get(_STAND_IN.get(part, ""), math.nan)) for part in _PARTS}
+    warm = {part: at.get(part, at.get(_STAND_IN.get(part, ""), math.nan)) for part in PARTS}
     return model.mounting.clearance(**warm) if model.mounting is not None else model.geometry.clearance
+
+
+def degrees(temperature: float) -> str:
+    """Write a temperature [K] as in a case."""
+    return f"{temperature - _ZERO_CELSIUS:.4f} degC"
 
 
 def stated_clearance(models: Iterable[BearingModel]) -> list[str]:
@@ -145,18 +147,6 @@ class OnShaft(Protocol):
     @property
     def position(self) -> float:
         """Place on the shaft [m]."""
-
-
-@dataclass(frozen=True)
-class _Alone:
-    """The only bearing of a case.
-
-    Places count from its middle.
-    """
-
-    model: BearingModel
-    name: str = NAME
-    position: float = 0.0
 
 
 class Loop(ABC):
@@ -218,6 +208,26 @@ class Loop(ABC):
 
         There is one value for each bearing, at temperatures of the nodes [K].
         """
+
+    @abstractmethod
+    def model_at(self, found: Steady, sentence: str = "", *, is_static: bool = True) -> BearingModel | MachineModel:
+        """Return the model at found temperatures.
+
+        Its case has them, and says so in a sentence.
+
+        Parameters
+        ----------
+        is_static : bool
+            Whether the model is for an equilibrium, which needs no end in time.
+        """
+
+    @abstractmethod
+    def words(self, found: Steady) -> str:
+        """Return the temperatures that count [degC]."""
+
+    def sentence(self, found: Steady) -> str:
+        """Say which temperatures were found."""
+        return f"temperatures found by the thermal network ({self.thermal.conductances}): {self.words(found)} degC"
 
     @abstractmethod
     def headline(self, points: Sequence[Point]) -> str:
@@ -365,62 +375,6 @@ class Loop(ABC):
 
     def _runaway(self, gain: Gain, what: str) -> Runaway:
         return Runaway(f"{self.name}: {runaway_sentence(gain)}; {what}", gain)
-
-
-class BearingLoop(Loop):
-    """Torque and temperature of one bearing alone.
-
-    Parameters
-    ----------
-    model : BearingModel
-        Resolved.
-    thermal : Thermal
-        Section of its case.
-    announce : callable, optional
-        Called with a sentence before something is compiled.
-    """
-
-    def __init__(self, model: BearingModel, thermal: Thermal, announce: Announce = None) -> None:
-        super().__init__(model.name, bearing_network(model, thermal), thermal, model.oil.temperature)
-        self.model, self.losses = model, Losses(model, announce)
-        self.bearings, self.shaft = (_Alone(model),), (("shaft", 0.0),)
-        self.speed = initial(model.inner_ring.dofs["spin"].motion)
-        self.of_network = [*network_assumptions(thermal), *stated_clearance([model])]
-        self.of_case = model.assumptions
-
-    def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
-        """Return the network with a changed section of the case."""
-        return bearing_network(self.model, change(self.thermal))
-
-    @property
-    def usual_area(self) -> float:
-        """Outer surface of a usual housing [m2]."""
-        return housing_area(self.model.geometry.outside_diameter)
-
-    def seen(self, temperatures: FloatArray) -> FloatArray:
-        """Return inlet temperature [K] and clearance [m]."""
-        at = self.nodes.named(temperatures)
-        return np.array([inlet_at(self.thermal, at), clearance_at(self.model, at)])
-
-    def solved(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve and return the quasi-static point; see :meth:`Losses.at`."""
-        return (self.losses.at(*seen.tolist()),)
-
-    def grown(self, at: Mapping[str, float]) -> FloatArray:
-        """Return zero.
-
-        There is no length along which shaft and housing grow.
-        """
-        return np.zeros(1)
-
-    def headline(self, points: Sequence[Point]) -> str:
-        """Return the lines that describe the bearing at its point."""
-        return "\n".join(headline(self.losses.there(points[0].inlet, points[0].clearance)))
-
-    @property
-    def count(self) -> int:
-        """Quasi-static points that were solved."""
-        return self.losses.count
 
 
 def runaway_sentence(gain: Gain) -> str:

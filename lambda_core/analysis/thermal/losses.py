@@ -199,8 +199,8 @@ class LossMap:
     INLET = 2.0  # [K]
     CLEARANCE = 1e-6  # [m]
 
-    def __init__(self, losses: Losses, inlet: float, clearance: float) -> None:
-        self._losses = losses
+    def __init__(self, solve: Callable[[float, float], Point], inlet: float, clearance: float) -> None:
+        self._solve = solve
         self._origin = (inlet, clearance)
         self._known: dict[tuple[int, int], FloatArray] = {}
 
@@ -220,5 +220,5 @@ class LossMap:
     def _corner(self, i: int, j: int) -> FloatArray:
         if (i, j) not in self._known:
             inlet, clearance = self._origin[0] + i * self.INLET, self._origin[1] + j * self.CLEARANCE
-            self._known[i, j] = self._losses.at(inlet, clearance).values
+            self._known[i, j] = self._solve(inlet, clearance).values
         return self._known[i, j]

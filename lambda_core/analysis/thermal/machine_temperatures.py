@@ -6,19 +6,20 @@ Shaft equilibrium and losses of all bearings follow them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 
-from lambda_core.analysis.rotor.api import machine_of
 from lambda_core.analysis.thermal.feedback import (
     INLET_STEP,
     LENGTH_STEP,
+    PARTS,
     Loop,
     Steady,
     clearance_at,
+    degrees,
     inlet_at,
     stated_clearance,
 )
@@ -28,7 +29,7 @@ from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.operating import averaged_losses
 from lambda_core.analysis.thermal.shaft_and_housing import network_of
 from lambda_core.analysis.thermal.surroundings import housing_area
-from lambda_core.case.case_io import Source, toml_tables
+from lambda_core.case.case_io import toml_tables
 from lambda_core.case.thermal import MachineThermal, Thermal
 from lambda_core.case.written import merged
 from lambda_core.domain.arrays import FloatArray
@@ -41,7 +42,6 @@ from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_mach
 
 _ZERO_CELSIUS = 273.15
 _NEAR = (2.0, 1e-6)  # inlet temperatures [K] and lengths [m] this near to others have their slopes
-_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 
 
 class MachineLoop(Loop):
@@ -104,6 +104,23 @@ class MachineLoop(Loop):
         ends = np.array([along.min(), along.max()])
         found: FloatArray = stretch(places, along, warm, heat.material) - stretch(places, ends, around, heat.housing)
         return found
+
+    def model_at(self, found: Steady, sentence: str = "", *, is_static: bool = True) -> MachineModel:
+        """Return the machine at found temperatures; see :class:`Loop`."""
+        del is_static  # a machine is resolved without an end in time
+        warm = resolve_machine(_with_temperatures(self, found, sentence))
+        return replace(warm, found_temperatures=FoundTemperatures(self, found))
+
+    def words(self, found: Steady) -> str:
+        """Return the temperatures of rings, oil and housing [degC]."""
+        at = self.nodes.named(found.temperatures)
+        each = [
+            f"{bearing.name} inner ring {at[f'{bearing.name}.inner_ring'] - _ZERO_CELSIUS:.1f}, "
+            f"outer ring {at[f'{bearing.name}.outer_ring'] - _ZERO_CELSIUS:.1f}, oil {point.inlet - _ZERO_CELSIUS:.1f}"
+            for bearing, point in zip(self.machine.bearings, found.points, strict=True)
+        ]
+        housing = f"; housing {at['housing'] - _ZERO_CELSIUS:.1f}" if "housing" in at else ""
+        return f"{'; '.join(each)}{housing}"
 
     def headline(self, points: Sequence[Point]) -> str:
         """Return the line of speed and bearings."""
@@ -198,54 +215,6 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
     return replace(mounted, model=model, seating=replace(seating, shift=shift))
 
 
-def ready_machine_of(
-    source: Source | MachineModel, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
-) -> MachineModel:
-    """Return the resolved machine of a case.
-
-    It has its own temperatures where the case wants them computed.
-
-    Parameters
-    ----------
-    source : str, Path, mapping, MachineCase or MachineModel
-        As for :func:`check`, or what it returned.
-    overrides : iterable of str
-        Changes ``path=value``.
-    announce : callable, optional
-        Called with a sentence before something is compiled, and with the temperatures found.
-
-    Returns
-    -------
-    MachineModel
-        Its case has the temperatures written in, so that a result needs no search when it goes on or is looked at.
-
-    Raises
-    ------
-    UsageError
-        For overrides of a resolved machine.
-    CaseError, SolverError
-        With a sentence about the case, or about why there are no steady temperatures.
-    """
-    machine = machine_of(source, overrides)
-    if not machine.awaits_temperatures:
-        return machine
-    loop = MachineLoop(machine, announce)
-    found = loop.steady()
-    sentence = _sentence(loop, found)
-    if announce is not None:
-        announce(sentence)
-    return machine_at_temperatures(loop, found, sentence)
-
-
-def machine_at_temperatures(loop: MachineLoop, found: Steady, sentence: str = "") -> MachineModel:
-    """Return the machine of a loop at found temperatures.
-
-    Its case says so in a sentence.
-    """
-    warm = resolve_machine(_with_temperatures(loop, found, sentence))
-    return replace(warm, found_temperatures=FoundTemperatures(loop, found))
-
-
 def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
     """Return the steady temperatures of a machine's run.
 
@@ -279,7 +248,7 @@ def without_temperatures(machine: MachineModel) -> MachineModel:
         tables |= {name: kept} if name in tables else {}
     bearings = {}
     for name, given in tables["bearings"].items():
-        parts = {key: value for key, value in given.get("temperatures", {}).items() if key not in _PARTS}
+        parts = {key: value for key, value in given.get("temperatures", {}).items() if key not in PARTS}
         bearings[name] = {key: value for key, value in given.items() if key != "temperatures"}
         bearings[name] |= {"temperatures": parts} if parts else {}
     tables |= {"bearings": bearings, "operation": {**tables["operation"], "temperatures": "computed"}}
@@ -292,35 +261,20 @@ def _with_temperatures(loop: MachineLoop, found: Steady, sentence: str) -> dict[
     tables = toml_tables(machine.case_toml, machine.name)
     bearings = {}
     for bearing, point in zip(machine.bearings, found.points, strict=True):
-        own = {part: at.get(f"{bearing.name}.{part}", at.get(part, math.nan)) for part in _PARTS}
-        parts = {part: _degrees(value) for part, value in own.items() if math.isfinite(value)}
-        bearings[bearing.name] = {"temperatures": parts, "lubricant": {"temperature": _degrees(point.inlet)}}
+        own = {part: at.get(f"{bearing.name}.{part}", at.get(part, math.nan)) for part in PARTS}
+        parts = {part: degrees(value) for part, value in own.items() if math.isfinite(value)}
+        bearings[bearing.name] = {"temperatures": parts, "lubricant": {"temperature": degrees(point.inlet)}}
     nodes = zip(machine.heat.shaft, machine.body.positions.tolist(), strict=True)
     warm = {x: at.get(name, _mean(machine, at, "inner_ring")) for name, x in nodes}
-    along = [[f"{1e3 * x:.9g} mm", _degrees(value)] for x, value in warm.items()]
+    along = [[f"{1e3 * x:.9g} mm", degrees(value)] for x, value in warm.items()]
     changed = merged(
         tables,
         {
             "assumptions": [*tables.get("assumptions", []), sentence],
             "bearings": bearings,
             "shaft": {"temperatures": along},
-            "housing": {"temperature": _degrees(at.get("housing", _mean(machine, at, "outer_ring")))},
+            "housing": {"temperature": degrees(at.get("housing", _mean(machine, at, "outer_ring")))},
         },
     )
     changed["operation"] = {key: value for key, value in changed["operation"].items() if key != "temperatures"}
     return changed
-
-
-def _degrees(temperature: float) -> str:
-    return f"{temperature - _ZERO_CELSIUS:.4f} degC"
-
-
-def _sentence(loop: MachineLoop, found: Steady) -> str:
-    at = loop.nodes.named(found.temperatures)
-    each = [
-        f"{bearing.name} inner ring {at[f'{bearing.name}.inner_ring'] - _ZERO_CELSIUS:.1f}, "
-        f"outer ring {at[f'{bearing.name}.outer_ring'] - _ZERO_CELSIUS:.1f}, oil {point.inlet - _ZERO_CELSIUS:.1f}"
-        for bearing, point in zip(loop.machine.bearings, found.points, strict=True)
-    ]
-    housing = f"; housing {at['housing'] - _ZERO_CELSIUS:.1f}" if "housing" in at else ""
-    return f"temperatures found by the thermal network ({loop.thermal.conductances}): {'; '.join(each)}{housing} degC"

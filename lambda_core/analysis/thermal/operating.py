@@ -1,99 +1,120 @@
-"""Solve a bearing at temperatures from its own losses.
-
-It does so for operation.temperatures = "computed".
-"""
+"""Find the temperatures of one bearing that is alone."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lambda_core.analysis.thermal.feedback import BearingLoop, Steady
+from lambda_core.analysis.thermal.feedback import PARTS, Loop, Steady, clearance_at, degrees, inlet_at, stated_clearance
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
-from lambda_core.analysis.thermal.losses import Announce
-from lambda_core.case.case import Case
+from lambda_core.analysis.thermal.losses import Announce, Losses, Point
+from lambda_core.analysis.thermal.machine_network import MachineNetwork
+from lambda_core.analysis.thermal.pillow_block import bearing_network
+from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.case_io import parse_case
+from lambda_core.case.short_form import NAME
+from lambda_core.case.thermal import Thermal
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.checking import resolve
+from lambda_core.model.checks.describe import headline
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.settings.resolve_thermal import network_assumptions
 from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
 
 _ZERO_CELSIUS = 273.15
-_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 
 
-def at_own_temperatures(
-    model: BearingModel, resolve: Callable[[Case], BearingModel], announce: Announce = None
-) -> BearingModel:
-    """Return the model at computed steady temperatures.
+@dataclass(frozen=True)
+class _Alone:
+    """The only bearing of a case.
 
-    Its thermal network gives them; a model with given temperatures stays as it is.
+    Places count from its middle.
+    """
 
-    The case that the returned model carries has these temperatures written in, so that a result needs no search when
-    it goes on or is looked at.
+    model: BearingModel
+    name: str = NAME
+    position: float = 0.0
+
+
+class BearingLoop(Loop):
+    """Torque and temperature of one bearing alone.
 
     Parameters
     ----------
     model : BearingModel
         Resolved.
-    resolve : callable
-        Freezes a case into a model.
+    thermal : Thermal
+        Section of its case.
     announce : callable, optional
-        Called with a sentence before something is compiled, and with the temperatures found.
-
-    Raises
-    ------
-    SolverError
-        When there are no steady temperatures; a runaway is named with the gain that caused it.
+        Called with a sentence before something is compiled.
     """
-    if model.thermal is None:
-        return model
-    loop = BearingLoop(model, model.thermal, announce)
-    found = loop.steady()
-    sentence = _sentence(loop, found)
-    if announce is not None:
-        announce(sentence)
-    return at_temperatures(loop, found, resolve, sentence)
+
+    def __init__(self, model: BearingModel, thermal: Thermal, announce: Announce = None) -> None:
+        super().__init__(model.name, bearing_network(model, thermal), thermal, model.oil.temperature)
+        self.model, self.losses = model, Losses(model, announce)
+        self.bearings, self.shaft = (_Alone(model),), (("shaft", 0.0),)
+        self.speed = initial(model.inner_ring.dofs["spin"].motion)
+        self.of_network = [*network_assumptions(thermal), *stated_clearance([model])]
+        self.of_case = model.assumptions
+
+    def nodes_with(self, change: Callable[[Thermal], Thermal]) -> MachineNetwork:
+        """Return the network with a changed section of the case."""
+        return bearing_network(self.model, change(self.thermal))
+
+    @property
+    def usual_area(self) -> float:
+        """Outer surface of a usual housing [m2]."""
+        return housing_area(self.model.geometry.outside_diameter)
+
+    def seen(self, temperatures: FloatArray) -> FloatArray:
+        """Return inlet temperature [K] and clearance [m]."""
+        at = self.nodes.named(temperatures)
+        return np.array([inlet_at(self.thermal, at), clearance_at(self.model, at)])
+
+    def solved(self, seen: FloatArray) -> tuple[Point, ...]:
+        """Solve and return the quasi-static point; see :meth:`Losses.at`."""
+        return (self.losses.at(*seen.tolist()),)
+
+    def grown(self, at: Mapping[str, float]) -> FloatArray:
+        """Return zero.
+
+        There is no length along which shaft and housing grow.
+        """
+        return np.zeros(1)
+
+    def model_at(self, found: Steady, sentence: str = "", *, is_static: bool = True) -> BearingModel:
+        """Return the model at found temperatures; see :class:`Loop`."""
+        case, at = parse_case(self.model.case_toml, self.model.name), self.nodes.named(found.temperatures)
+        warm = case.with_(
+            assumptions=[*case.assumptions, *network_assumptions(case.thermal), sentence],
+            lubricant={"temperature": degrees(found.points[0].inlet)},
+            bearing={"temperatures": {part: degrees(at[part]) for part in PARTS if part in at}},
+            operation={"temperatures": None},
+        )
+        return replace(resolve(warm, is_static=is_static), found_temperatures=FoundTemperatures(self, found))
+
+    def words(self, found: Steady) -> str:
+        """Return the temperatures of all parts and the oil [degC]."""
+        at = self.nodes.named(found.temperatures)
+        parts = (name for name in (*PARTS, "oil") if name in at)
+        return ", ".join(f"{name.replace('_', ' ')} {at[name] - _ZERO_CELSIUS:.1f}" for name in parts)
+
+    def headline(self, points: Sequence[Point]) -> str:
+        """Return the lines that describe the bearing at its point."""
+        return "\n".join(headline(self.losses.there(points[0].inlet, points[0].clearance)))
+
+    @property
+    def count(self) -> int:
+        """Quasi-static points that were solved."""
+        return self.losses.count
 
 
-def at_temperatures(
-    loop: BearingLoop, found: Steady, resolve: Callable[[Case], BearingModel], sentence: str = ""
-) -> BearingModel:
-    """Return the model of a loop at found temperatures.
-
-    Its case says so in a sentence.
-    """
-    case = _with_temperatures(parse_case(loop.model.case_toml, loop.model.name), loop, found, sentence)
-    return replace(resolve(case), found_temperatures=FoundTemperatures(loop, found))
-
-
-def _with_temperatures(case: Case, loop: BearingLoop, found: Steady, sentence: str) -> Case:
-    at = loop.nodes.named(found.temperatures)
-    parts = {part: _degrees(at[part]) for part in _PARTS if part in at}
-    return case.with_(
-        assumptions=[*case.assumptions, *network_assumptions(case.thermal), sentence],
-        lubricant={"temperature": _degrees(found.points[0].inlet)},
-        bearing={"temperatures": parts},
-        operation={"temperatures": None},
-    )
-
-
-def _degrees(temperature: float) -> str:
-    return f"{temperature - _ZERO_CELSIUS:.4f} degC"
-
-
-def _sentence(loop: BearingLoop, found: Steady) -> str:
-    at = loop.nodes.named(found.temperatures)
-    shown = ", ".join(
-        f"{name.replace('_', ' ')} {at[name] - _ZERO_CELSIUS:.1f}" for name in (*_PARTS, "oil") if name in at
-    )
-    return f"temperatures found by the thermal network ({loop.thermal.conductances}): {shown} degC"
-
-
-def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[BearingLoop, Steady]:
+def of_run(result: Result, announce: Announce = None) -> tuple[BearingLoop, Steady]:
     """Return the steady temperatures of a run.
 
     They follow from its averaged losses, including the cage.
@@ -105,10 +126,10 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
     ----------
     result : Result
         A run.
-    model : BearingModel
-        Its case, resolved.
     """
-    loop = BearingLoop(model, parse_case(result.case_toml, str(result.path)).thermal, announce)
+    case = parse_case(result.case_toml, str(result.path))
+    model = resolve(case)
+    loop = BearingLoop(model, case.thermal, announce)
     point = loop.losses.at(model.oil.temperature, model.geometry.clearance)
     losses = averaged_losses(result, model)
     measured = point.with_losses(losses)

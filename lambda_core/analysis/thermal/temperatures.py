@@ -1,19 +1,18 @@
-"""Find temperatures of one bearing under its losses."""
+"""Find temperatures of bearings under their losses."""
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 from lambda_core.analysis.rotor.api import machine_of
 from lambda_core.case.case_io import is_machine
-from lambda_core.model.checking import model_of, resolve
+from lambda_core.model.checking import model_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from lambda_core.analysis.thermal.report import SteadyTemperatures, TemperaturesOverTime
+    from lambda_core.analysis.thermal.feedback import Loop, Steady
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
@@ -21,71 +20,74 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
 
 
-def steady_temperatures(
-    source: Source | BearingModel,
+def loop_of(
+    source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
-) -> tuple[SteadyTemperatures, Callable[[], BearingModel]]:
-    """Find the steady temperatures of one bearing.
+) -> Loop:
+    """Return the loop that computes all temperatures of a case."""
+    from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
+    from lambda_core.analysis.thermal.operating import BearingLoop
+    from lambda_core.case.case_io import parse_case
 
-    See :func:`~.api.thermal`; also return its model there.
+    if is_machine(source):
+        return MachineLoop(without_temperatures(machine_of(source, overrides)), announce)  # type: ignore[arg-type]
+    model = model_of(source, overrides)  # type: ignore[arg-type]
+    return BearingLoop(model, model.thermal or parse_case(model.case_toml, model.name).thermal, announce)
+
+
+def of_run(result: Result, announce: Callable[[str], None] | None = None) -> tuple[Loop, Steady]:
+    """Return the loop of a run and its steady temperatures.
+
+    They follow from its averaged losses, including the cage.
     """
-    from lambda_core.analysis.thermal.feedback import BearingLoop
-    from lambda_core.analysis.thermal.operating import at_temperatures, of_run
-    from lambda_core.analysis.thermal.report import steady_of
+    from lambda_core.analysis.thermal import machine_temperatures, operating
 
-    run = run_of(source)
-    if run is not None:
-        from lambda_core.case.case_io import parse_case
-
-        loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
-        origin = f"averages of {run.path}"
-    else:
-        model = model_of(source, overrides)
-        loop = BearingLoop(model, _section(model), announce)
-        found, origin = loop.steady(), "quasi-static point"
-    return steady_of(loop, found, origin), partial(at_temperatures, loop, found, partial(resolve, is_static=True))
-
-
-def temperatures_over_time(
-    source: Source | BearingModel,
-    duration: float,
-    overrides: Iterable[str] = (),
-    announce: Callable[[str], None] | None = None,
-) -> TemperaturesOverTime:
-    """Follow the temperatures of one bearing; see :func:`lambda_core.api.warm_up`."""
-    from lambda_core.analysis.thermal.feedback import BearingLoop
-    from lambda_core.analysis.thermal.report import course_of
-    from lambda_core.analysis.thermal.transient import warm_up
-
-    model = model_of(source, overrides)
-    loop = BearingLoop(model, _section(model), announce)
-    return course_of(loop, warm_up(loop, duration))
+    if result.is_machine:
+        return machine_temperatures.of_run(result, announce)
+    return operating.of_run(result, announce)
 
 
 def resolved(
-    source: Source | BearingModel | MachineModel, overrides: Iterable[str] = ()
+    source: Source | BearingModel | MachineModel, overrides: Iterable[str] = (), *, is_static: bool = False
 ) -> BearingModel | MachineModel:
     """Return the model of a case before temperatures are computed."""
     if is_machine(source):
         return machine_of(source, overrides)  # type: ignore[arg-type]
-    return model_of(source, overrides)  # type: ignore[arg-type]
+    return model_of(source, overrides, is_static=is_static)  # type: ignore[arg-type]
 
 
 def ready(
     source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
+    *,
+    is_static: bool = False,
 ) -> BearingModel | MachineModel:
     """Return the model of a bearing or a machine.
 
-    It has its own temperatures where the case wants them computed.
-    """
-    if is_machine(source):
-        from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
+    It has its own temperatures where the case wants them computed. Its case has them written in, so that a result
+    needs no search when it goes on or is looked at.
 
-        return ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    return ready_model(source, overrides, announce)  # type: ignore[arg-type]
+    With `is_static` it is for an equilibrium, which needs no end in time.
+
+    Raises
+    ------
+    UsageError
+        For overrides of a resolved model.
+    CaseError, SolverError
+        With a sentence about the case, or about why there are no steady temperatures: a runaway is named with the gain
+        that caused it.
+    """
+    model = resolved(source, overrides, is_static=is_static)
+    if not model.awaits_temperatures:
+        return model
+    loop = loop_of(model, (), announce)
+    found = loop.steady()
+    sentence = loop.sentence(found)
+    if announce is not None:
+        announce(sentence)
+    return loop.model_at(found, sentence, is_static=is_static)
 
 
 def ready_model(
@@ -95,23 +97,15 @@ def ready_model(
     *,
     is_static: bool = False,
 ) -> BearingModel:
-    """Return the resolved model of a case.
+    """Return the model of one bearing; see :func:`ready`."""
+    return cast("BearingModel", ready(source, overrides, announce, is_static=is_static))
 
-    It has its own temperatures where the case wants them computed.
 
-    With `is_static` it is for an equilibrium, which needs no end in time.
-
-    Raises
-    ------
-    CaseError, SolverError
-        With a sentence about the case, or about why there are no steady temperatures.
-    """
-    model = model_of(source, overrides, is_static=is_static)
-    if model.thermal is None:
-        return model
-    from lambda_core.analysis.thermal.operating import at_own_temperatures
-
-    return at_own_temperatures(model, partial(resolve, is_static=is_static), announce)
+def ready_machine_of(
+    source: Source | MachineModel, overrides: Iterable[str] = (), announce: Callable[[str], None] | None = None
+) -> MachineModel:
+    """Return the model of a machine; see :func:`ready`."""
+    return cast("MachineModel", ready(source, overrides, announce))
 
 
 def ready_rollers(
@@ -153,9 +147,3 @@ def run_of(source: object) -> Result | None:
 
     is_file = isinstance(source, str | Path) and Path(source).suffix == ".h5" and Path(source).is_file()
     return Result(Path(str(source))) if is_file else None
-
-
-def _section(model: BearingModel) -> Any:
-    from lambda_core.case.case_io import parse_case
-
-    return model.thermal or parse_case(model.case_toml, model.name).thermal

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from lambda_core.analysis.thermal.feedback import BearingLoop, Gain, Loop
+from lambda_core.analysis.thermal.feedback import Gain, Loop
 from lambda_core.analysis.thermal.losses import LossMap, Point
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
@@ -168,17 +168,15 @@ def _course(
     )
 
 
-def warm_up(loop: BearingLoop, duration: float) -> Course:
-    """Integrate the temperatures of one bearing.
+def warm_up(loop: Loop, duration: float) -> Course:
+    """Integrate the temperatures of bearings.
 
     The integration starts with the temperatures of the case and covers a time.
 
-    Losses between solved quasi-static points are interpolated (:class:`LossMap`).
-
     Parameters
     ----------
-    loop : BearingLoop
-        Torque and temperature of the bearing.
+    loop : Loop
+        Torque and temperature of the bearings.
     duration : float
         [s].
 
@@ -189,8 +187,17 @@ def warm_up(loop: BearingLoop, duration: float) -> Course:
     CaseError
         When a further node of the case has no heat capacity.
     """
+    of_grid = loop.seen(loop.nodes.start()).size == 2
+    return _on_grid(loop, duration) if of_grid else _along_course(loop, duration)
+
+
+def _on_grid(loop: Loop, duration: float) -> Course:
+    """Follow a bearing that sees one inlet and one clearance.
+
+    Losses between solved quasi-static points are interpolated (:class:`LossMap`).
+    """
     start = loop.seen(loop.nodes.start())
-    known = LossMap(loop.losses, *start.tolist())
+    known = LossMap(lambda *seen: loop.solved(np.array(seen))[0], *start.tolist())
     balance = _Balance(loop, (known.at(*start.tolist()),))
 
     def points_at(_: float, temperatures: FloatArray) -> Points:
@@ -202,26 +209,12 @@ def warm_up(loop: BearingLoop, duration: float) -> Course:
     return _course(balance, time, states, points, is_beyond=found.status == 1)
 
 
-def warm_up_machine(loop: Loop, duration: float) -> Course:
-    """Integrate the temperatures of a machine.
-
-    The integration starts with the temperatures of the case and covers a time.
+def _along_course(loop: Loop, duration: float) -> Course:
+    """Follow bearings that see more.
 
     What several bearings see has too many dimensions for a grid. Points are solved along the course instead: between
     two of them, a cell of :class:`LossMap` apart at most, losses are linear in time, and the later one is solved again
     until it is that of the temperatures at its time.
-
-    Parameters
-    ----------
-    loop : Loop
-        Torque and temperature of the bearings.
-    duration : float
-        [s].
-
-    Raises
-    ------
-    SolverError, CaseError
-        As :func:`warm_up`.
     """
     seen = loop.seen(loop.nodes.start())
     points = loop.solved(seen)

@@ -372,8 +372,7 @@ def _is_case(source: str | PathLike[str]) -> bool:
 
 def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
     """Return the chapter about a case at its operating point."""
-    from lambda_core.analysis.thermal.machine_temperatures import ready_machine_of
-    from lambda_core.analysis.thermal.temperatures import ready_model
+    from lambda_core.analysis.thermal.temperatures import ready_machine_of, ready_model
     from lambda_core.case.case_io import is_machine, refuse_bearing
     from lambda_core.discovery.api import registry
     from lambda_core.export.report.chapters import case_chapter
