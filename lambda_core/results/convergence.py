@@ -112,9 +112,11 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
         torque = chosen.torque
         if not torque.half_width <= _allowed(chosen, together):
             share = torque.half_width / abs(chosen.interval.torque())
+            wanted = revolutions_wanted(solver, chosen, together)
+            do = f"; about {wanted} would do" if wanted > chosen.revolutions + chosen.discarded else ""
             found.append(
                 f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
-                f"over {torque.count} cage revolutions), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+                f"over {torque.count} cage revolutions{do}), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
                 + (f", or {100 * NEGLIGIBLE * TORQUE_TOLERANCE:g} % of the torque of all bearings" if together else "")
             )
     if not abs(residual) <= ENERGY_TOLERANCE:

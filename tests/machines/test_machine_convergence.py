@@ -56,6 +56,7 @@ def test_alone_a_bearing_has_to_be_known_to_a_hundredth_of_its_own_torque() -> N
     assert shortfalls(SOLVER, known(1e-3, 0.99e-5), 0.0) == []
     (said,) = shortfalls(SOLVER, known(1e-3, 1.1e-5), 0.0)
     assert "known to 1.1 %" in said
+    assert "; about " in said  # how many revolutions it takes
     assert said.endswith("at most 1 % is allowed")
     (said,) = shortfalls(SOLVER, known(1e-3, 1.1e-3), 0.0, together=1.0)
     assert said.endswith("at most 1 % is allowed, or 0.1 % of the torque of all bearings")
