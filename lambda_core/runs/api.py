@@ -86,9 +86,9 @@ def quasistatic(
         answer = quasistatic_of(found, rating_of(found, registry().methods))
         if not band:
             return answer
-        from lambda_core.analysis.band.model_band import band_alone
+        from lambda_core.analysis.band.model_band import band_or_reason
 
-        return answer.with_band(band_alone(model))
+        return answer.with_band(band_or_reason(model))
 
 
 def _roller_answer(
@@ -109,10 +109,10 @@ def _roller_answer(
     answer = roller_quasistatic(model)
     if not band:
         return answer
-    from lambda_core.analysis.band.model_band import band_alone
+    from lambda_core.analysis.band.model_band import band_or_reason
 
     try:
-        return answer.with_band(band_alone(warm or ready_model(source, overrides, is_static=True)))
+        return answer.with_band(band_or_reason(warm or ready_model(source, overrides, is_static=True)))
     except CaseError:
         return answer
 

@@ -10,6 +10,7 @@ import re
 import tomllib
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -18,6 +19,7 @@ from lambda_cli.main import main
 from lambda_syla2026 import anchors
 
 from lambda_core import api
+from lambda_core.analysis.band import effects
 from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
 from lambda_core.analysis.band.model_band import Effect, band_around
@@ -28,7 +30,7 @@ from lambda_core.case.case_io import validate_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.fitting.measurements import parse_measurements
@@ -39,6 +41,7 @@ from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.band_text import banded, ends, source_lines
 from lambda_core.results.model_band import FIELDS, TEMPERATURES, Band, Contributor, ModelBand
 from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.solver.drivers import equilibrium
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.studies.job import resolve_point
@@ -532,3 +535,51 @@ def test_the_text_of_a_machine_shows_the_bands_of_its_bearings(tmp_path: Path) -
     for text in (api.quasistatic(tables, band=True).text(), run.text()):
         for head in ("band power loss W", "minimum film um", "maximum pressure GPa", "capacitance nF", "rating life h"):
             assert re.search(rf"{head} +[\d. ]+ \.\. [\d. ]+ +[\d. ]+ \.\. [\d. ]+\n", text), head
+
+
+def test_a_case_without_a_solution_near_has_its_answer_and_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give up the band where neighbours have no solution.
+
+    With very cold oil it took a minute, in which a run's limit of wall time passed unnoticed. Then the command ended
+    without the answer that it had found.
+    """
+    case = {
+        "name": "cold",
+        "bearing": {"designation": "6001", "maker": "SKF", "clearance": "C2"},
+        "lubricant": {"name": "FVA3A", "temperature": "-10.85 degC"},
+        "loads": {"radial": "111.526 N", "axial": "51.0327 N"},
+        "operation": {"speed": "3544.61 rpm"},
+        "models": {"damping": "hunt-crossley", "thermal_correction": "zhu-cheng"},
+    }
+    searches: list[int] = []
+    search = equilibrium._attempt
+
+    def counted(*arguments: Any) -> Any:
+        searches.append(1)
+        return search(*arguments)
+
+    monkeypatch.setattr(equilibrium, "_attempt", counted)
+    found = api.quasistatic(case, band=True)
+    assert isinstance(found, QuasiStatic)
+    assert found.friction_torque_Nmm is not None
+    assert found.friction_torque_Nmm > 0.0
+    assert found.model_band is not None
+    assert found.model_band.bands == []
+    assert found.model_band.left_out[0].startswith("no model band: there is no equilibrium with friction at other pos")
+    assert len(searches) < 40  # 460 before
+
+
+def test_a_band_is_given_up_where_changes_have_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+
+    def without_solution(*_: Any, **__: Any) -> Any:
+        asked.append(1)
+        raise SolverError("no equilibrium")
+
+    monkeypatch.setattr(effects, "solve_near", without_solution)
+    found = api.quasistatic("6208-axial-1300", band=True)
+    assert isinstance(found, QuasiStatic)
+    assert found.model_band is not None
+    assert found.model_band.bands == []
+    assert "no model band: 3 of the first changes" in found.model_band.left_out[0]
+    assert len(asked) == 3

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.fitted import FitOrigin, FittedValue
 
+_MOST_LOST = 2  # changes without an equilibrium; each takes a second or two, and a band without them says little
 SEEN_STEPS = (0.5, 0.5e-6)  # of the temperature at the inlets [K] and of the clearance [m], for slopes
 
 
@@ -103,12 +104,18 @@ class Effects:
         self._without = {*without, *fitted}
         self._kept = {path.split(".")[1] for path in fitted if path.startswith("parameters.")}  # laws of fitted values
         self.left_out: list[str] = []
+        self._lost = 0
 
     def values_at_all_positions(self) -> FloatArray:
         """Return the results, averaged over the ball positions."""
 
         def solved(phase: float) -> Equilibrium:
-            return self._base if phase == self._base.phase else solve(self._model, self._kernels, phase=phase)
+            if phase == self._base.phase:
+                return self._base
+            try:
+                return solve(self._model, self._kernels, by_warmer_oil=False, phase=phase)
+            except SolverError:
+                raise SolverError("there is no equilibrium with friction at other positions of the balls") from None
 
         found: FloatArray = read_values(solved, [READ[name] for name in self.names]).mean(axis=0)
         return found
@@ -149,6 +156,7 @@ class Effects:
         for graded in graded_parameters(self._model, resolver):
             if graded.path in self._without or not graded.low < graded.high:
                 continue
+            self._check_lost()
 
             def ends(graded: Graded = graded) -> list[FloatArray]:
                 moved = graded.models or [
@@ -162,6 +170,7 @@ class Effects:
         wanted = [exchange for exchange in exchanges(self._model) if exchange.role not in self._kept]
         found: dict[str, list[FloatArray]] = {exchange.role: [np.zeros(len(self.names))] for exchange in wanted}
         for role, law, other in self._others(wanted, resolver):
+            self._check_lost()
             try:
                 # Laws that carry normal force need the whole search; those of oil and friction do not.
                 found[role].append(self._logarithms(with_laws(self._model, role, other), near=True, other=True))
@@ -261,6 +270,14 @@ class Effects:
             raise CaseError(self._model.name, problems)
         return found
 
+    def _check_lost(self) -> None:
+        """End the search where many changes have no equilibrium."""
+        if self._lost > _MOST_LOST:
+            raise SolverError(
+                f"{self._lost} of the first changes within the ranges have no equilibrium with friction: "
+                "a small change of temperature, parameters or laws may end the steady motion"
+            )
+
     def _has(self, name: str) -> bool:
         """Tell whether a result exists.
 
@@ -283,7 +300,11 @@ class Effects:
         With `near` only laws differ; with `other` they are other laws, which have kernels of their own.
         """
         kernels = Kernels(model, near=self._kernels) if other else self._kernels
-        found = solve_near(model, self._base, kernels, is_of_laws=near)
+        try:
+            found = solve_near(model, self._base, kernels, is_of_laws=near, by_warmer_oil=False)
+        except SolverError:
+            self._lost += 1
+            raise
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = np.log(self._read(found) / self._values)
         return np.where(np.isfinite(ratio), ratio, 0.0)

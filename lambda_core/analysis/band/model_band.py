@@ -13,7 +13,7 @@ from lambda_core.analysis.band.effects import Effect, Effects
 from lambda_core.analysis.band.readings import READ, UNITS_OF
 from lambda_core.analysis.band.temperature_effects import GIVEN, LOSS, BearingEffects, following
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import (
     COVERAGE,
@@ -114,10 +114,31 @@ def bands_of_bearings(model: BearingModel | MachineModel, alone: str) -> dict[st
     `alone` is the name of one that is no machine.
     """
     if isinstance(model, BearingModel):
-        return {alone: band_alone(model)}
+        return {alone: band_or_reason(model)}
     from lambda_core.solver.drivers.machine_statics import solve_machine
 
-    return bands_of_machine(model, solve_machine(model)).bearings
+    return bands_or_reason(model, solve_machine(model)).bearings
+
+
+def band_or_reason(model: BearingModel) -> ModelBand:
+    """Return the band of a bearing or its absence."""
+    try:
+        return band_alone(model)
+    except SolverError as error:
+        return _without(model.name, error)
+
+
+def bands_or_reason(machine: MachineModel, state: MachineState) -> MachineBand:
+    """Return the bands of a machine or their absence."""
+    try:
+        return bands_of_machine(machine, state)
+    except SolverError as error:
+        bands = {one.name: _without(machine.name, error) for one in machine.bearings}
+        return MachineBand(case=machine.name, bearings=bands)
+
+
+def _without(case: str, error: SolverError) -> ModelBand:
+    return ModelBand(case=case, coverage=COVERAGE, bands=[], left_out=[f"no model band: {error}"])
 
 
 def bands_of_machine(
@@ -233,10 +254,10 @@ def _bands(
     labels: Sequence[str] = ("",),
 ) -> list[ModelBand]:
     """Return the bands of bearings and computed temperatures."""
+    values_of_each = [one.values_at_all_positions().tolist() for one in each]  # first: one may have no solution
     rows, warmer = _effects(each, found, labels)
     bands = []
-    for one, effects, label in zip(each, rows, labels, strict=False):
-        values = one.values_at_all_positions().tolist()
+    for one, effects, label, values in zip(each, rows, labels, values_of_each, strict=False):
         known = [
             band_around(name, UNITS_OF[name], i, values[i], effects)
             for i, name in enumerate(one.names)

@@ -38,9 +38,9 @@ def machine_equilibrium(
     found = equilibrium_of(model, state, preload=preloads(model, kernels))
     if not band:
         return found
-    from lambda_core.analysis.band.model_band import bands_of_machine
+    from lambda_core.analysis.band.model_band import bands_or_reason
 
-    return found.with_bands(bands_of_machine(model, state))
+    return found.with_bands(bands_or_reason(model, state))
 
 
 @answers

@@ -117,6 +117,7 @@ def solve(
     announce: Announce = None,
     *,
     strict: bool = True,
+    by_warmer_oil: bool = True,
     phase: float = 0.0,
 ) -> Equilibrium:
     """Find the quasi-static equilibrium at t = 0.
@@ -125,6 +126,8 @@ def solve(
     ----------
     strict : bool
         Whether the balls' friction must be in equilibrium too. The dynamics can start without it, from rolling balls.
+    by_warmer_oil : bool
+        Whether to go by way of warmer oil where the direct search fails, which takes ten times as long.
     phase : float
         Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
 
@@ -161,7 +164,7 @@ def solve(
     roll(model, frame, L.elements_in(context.bundle, state), contacts)
     smooth, converged = state.copy(), True
     try:
-        report = _with_friction(compiled, context, state, strict=strict)
+        report = _with_friction(compiled, context, state, strict=strict, by_warmer_oil=by_warmer_oil)
         report = follow_paths(
             context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
         )
@@ -308,7 +311,9 @@ def without_friction(compiled: Core, context: SolverContext, state: FloatArray) 
     return None
 
 
-def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
+def _with_friction(
+    compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool, by_warmer_oil: bool
+) -> StaticReport:
     """Find the friction's equilibrium, in place.
 
     It starts from the equilibrium without friction and goes by way of warmer oil where needed.
@@ -323,7 +328,8 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
     try:
         return found(context, state)
     except SolverError as error:
-        near = by_viscosity_continuation(context, start, found) if strict and not _limitless(context) else None
+        is_worth_more = strict and by_warmer_oil and not _limitless(context)
+        near = by_viscosity_continuation(context, start, found) if is_worth_more else None
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
             raise SolverError("; ".join([str(error), *beyond])) from None

@@ -22,7 +22,12 @@ from lambda_core.solver.drivers.solver_context import assemble
 
 
 def solve_near(
-    model: BearingModel, near: Equilibrium, kernels: Kernels | None = None, *, is_of_laws: bool = True
+    model: BearingModel,
+    near: Equilibrium,
+    kernels: Kernels | None = None,
+    *,
+    is_of_laws: bool = True,
+    by_warmer_oil: bool = True,
 ) -> Equilibrium:
     """Find a changed model's equilibrium.
 
@@ -39,6 +44,8 @@ def solve_near(
     is_of_laws : bool
         Whether only laws differ, or what only they see: then normal forces are as good as the same. Otherwise these are
         found anew, and the balls start with their speeds in the solution.
+    by_warmer_oil : bool
+        Of the search anew, as in :func:`solve`.
 
     Raises
     ------
@@ -50,7 +57,7 @@ def solve_near(
     check_laws(model, kernels, frame, oils, near.context.model)
     compiled, context = core(None), assemble(model, kernels, frame, oils)
     if context.size != near.state.size:
-        return solve(model, kernels, phase=near.phase)
+        return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
     state = near.state.copy()
     try:
         if not is_of_laws:
@@ -63,9 +70,9 @@ def solve_near(
         driven = near.context.driven if are_balls else None
         report = continue_static(compiled, context, state, friction=True, is_near=are_balls, driven=driven)
     except SolverError:
-        return solve(model, kernels, phase=near.phase)
+        return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
     if are_balls and (context.driven != near.context.driven).any():
-        return solve(model, kernels, phase=near.phase)
+        return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
     return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
 
 
