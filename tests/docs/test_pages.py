@@ -33,6 +33,26 @@ def test_a_page_begins_with_its_purpose_and_audience(page: str) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("page", "task"),
+    [
+        ("run.md", "resume"),
+        ("shaft.md", "preload"),
+        ("studies.md", "Friction over speed"),
+        ("fit.md", "Compare with measurements"),
+        ("fmu.md", "shaft"),
+        ("catalogue.md", "choose a bearing"),
+        ("trust.md", "trust"),
+    ],
+)
+def test_a_title_names_the_task_that_readers_look_for(page: str, task: str) -> None:
+    assert task in _text(page).splitlines()[0]
+
+
+def test_the_first_page_leads_to_the_page_about_trust() -> None:
+    assert "](trust.md)" in _text("first-bearing.md").partition("\n## Next\n")[2]
+
+
 def test_the_gallery_is_the_second_page() -> None:
     assert re.findall(r"\S+\.md", NAVIGATION)[:2] == ["index.md", "gallery.md"]
 
