@@ -9,7 +9,7 @@ import typer
 
 from lambda_cli.options import BearingOption, CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
-from lambda_core.domain.errors import PartialResultError
+from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_folder, check_new
 
 MeasuredArgument = Annotated[
@@ -41,6 +41,7 @@ def fit(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="Write a case file with the fitted values.")
     ] = None,
+    rows: Annotated[bool, typer.Option("--rows", help="Also store the measured values in that file.")] = False,
     draw: Annotated[
         Path | None, typer.Option("--draw", metavar="DIR", help="Write pictures (svg and png) into this folder.")
     ] = None,
@@ -61,6 +62,8 @@ def fit(
     """
     from lambda_core import api
 
+    if rows and out is None:
+        raise UsageError("--rows stores measured values in the case of --out: name a file with --out")
     if out is not None:
         check_new(out, force)
     if report is not None:
@@ -80,7 +83,7 @@ def fit(
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if out is not None:
-        typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force)), err=True)
+        typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force, rows=rows)), err=True)
     if draw is not None:
         from lambda_core.views.other_units import in_units
 

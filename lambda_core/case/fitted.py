@@ -23,6 +23,17 @@ class FittedValue(Section):
     range: list[float] = option([], "ends of the range of a value that the data do not determine", max_length=2)
 
 
+class MeasuredRow(Section):
+    """One measured value of a fit, stored on request."""
+
+    line: int = option(description="of the file of measurements", ge=1)
+    conditions: str = option("", "operating conditions of the point")
+    quantity: str = option(description="what was measured")
+    value: float = option(description="measured value in `unit`")
+    error: float = option(description="its standard deviation in the fit, in `unit`", ge=0.0)
+    unit: str = option("", "unit of both")
+
+
 class FitOrigin(Section):
     """Origin of the fitted values of a case.
 
@@ -35,6 +46,7 @@ class FitOrigin(Section):
     count: int = option(description="number of measured values", ge=1)
     parameters: list[FittedValue] = option([], "the fitted values")
     correlation: list[list[float]] = option([], "correlation of the fitted values, in their order")
+    measured: list[MeasuredRow] = option([], "measured values; only where the fit was asked to store them")
 
     @model_validator(mode="after")
     def _has_all_correlations(self) -> FitOrigin:

@@ -84,6 +84,7 @@ def fitted_case(
     overrides: Iterable[str] = (),
     *,
     overwrite: bool = False,
+    rows: bool = False,
 ) -> Path:
     """Write a case file with fitted values and their origin.
 
@@ -94,9 +95,11 @@ def fitted_case(
     report : FitReport
         From :func:`fit`.
     path : path-like
-        The new file. The measured rows are not stored in it.
+        The new file.
     overwrite : bool
         Replace a file that stands there.
+    rows : bool
+        Also store the measured values in it.
 
     Returns
     -------
@@ -110,7 +113,7 @@ def fitted_case(
     """
     from lambda_core.fitting.fitted_case import write_fitted
 
-    return write_fitted(source, report, path, overrides, overwrite=overwrite)
+    return write_fitted(source, report, path, overrides, overwrite=overwrite, rows=rows)
 
 
 def measured_series() -> list[MeasuredSeries]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.units import show
 from lambda_core.domain.written_values import DIGITS
 from lambda_core.fitting.report_text import compact
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
     from lambda_core.case.case_io import Source
     from lambda_core.case.written import Written
-    from lambda_core.fitting.report import FitReport
+    from lambda_core.fitting.report import FitReport, FittedPoint
 
     C = TypeVar("C", bound=Written)
 
@@ -26,6 +27,7 @@ def write_fitted(
     overrides: Iterable[str] = (),
     *,
     overwrite: bool = False,
+    rows: bool = False,
 ) -> Path:
     """Write a case file with the fitted values, see :func:`lambda_core.fitting.api.fitted_case`."""
     from lambda_core.case.builtin import builtin_text, is_builtin
@@ -40,25 +42,25 @@ def write_fitted(
         original = (
             case_text(Path(source)) if is_file else builtin_text(str(source)) if is_builtin(str(source)) else None
         )
-    case = with_fit(read_case(source, overrides), report)
+    case = with_fit(read_case(source, overrides), report, rows=rows)
     save_case(case, target, original)
     return target
 
 
-def with_fit(case: C, report: FitReport) -> C:
+def with_fit(case: C, report: FitReport, *, rows: bool = False) -> C:
     """Return the case with the fitted values.
 
     It has an assumption for each, and the section `fit`.
 
     A parameter that the data do not determine keeps its value; the section has its range as a standard deviation, and
-    how the fitted values go with it.
+    how the fitted values go with it. With `rows` the section also has the measured values.
     """
     changes: dict[str, Any] = {}
-    rows: list[dict[str, Any]] = []
+    values: list[dict[str, Any]] = []
     sentences = []
     for parameter in report.parameters:
         number = float(f"{parameter.value:.{DIGITS}g}")
-        rows.append(
+        values.append(
             {
                 "path": parameter.path,
                 "value": number,
@@ -67,7 +69,7 @@ def with_fit(case: C, report: FitReport) -> C:
             }
         )
         if parameter.standard_error is None:
-            rows[-1]["range"] = [parameter.low, parameter.high]
+            values[-1]["range"] = [parameter.low, parameter.high]
             continue
         _set(changes, parameter.path, f"{number:.{DIGITS}g} {parameter.unit}" if parameter.unit else number)
         shown = f"{compact(parameter.value, parameter.standard_error)} {parameter.unit}".rstrip()
@@ -78,10 +80,25 @@ def with_fit(case: C, report: FitReport) -> C:
         "sha256": report.sha256,
         "date": report.date,
         "count": len(report.points),
-        "parameters": rows,
+        "parameters": values,
         "correlation": [[float(f"{value:.6g}") for value in row] for row in report.posterior_correlation],
     }
+    if rows:
+        changes["fit"]["measured"] = [_row(point, report.condition_quantities) for point in report.points]
     return case.with_(**changes)
+
+
+def _row(point: FittedPoint, quantities: Mapping[str, str]) -> dict[str, Any]:
+    """Return one measured value as it stands in a case."""
+    conditions = (f"{name} {show(value, quantities[name], 6)}" for name, value in point.conditions.items())
+    return {
+        "line": point.line,
+        "conditions": ", ".join(conditions),
+        "quantity": point.quantity,
+        "value": float(f"{point.measured:.{DIGITS}g}"),
+        "error": float(f"{point.error:.4g}"),
+        "unit": point.unit,
+    }
 
 
 def _set(tables: dict[str, Any], path: str, value: Any) -> None:

@@ -91,6 +91,22 @@ def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_pat
         api.fitted_case(CASE, report, path)
 
 
+def test_measured_values_are_stored_on_request_alone(report: api.FitReport, tmp_path: Path) -> None:
+    hostile = report.model_copy(update={"file": 'a"] \\ \n[loads]\nradial = "1 N".csv'})
+    without, stored = (
+        api.case(api.fitted_case(CASE, hostile, tmp_path / f"{rows}.toml", rows=rows)) for rows in (False, True)
+    )
+    assert without.fit is not None
+    assert stored.fit is not None
+    assert not without.fit.measured
+    assert stored.fit.file == hostile.file
+    first, point = stored.fit.measured[0], report.points[0]
+    assert (first.line, first.quantity, first.value, first.unit) == (2, "friction torque", point.measured, "N mm")
+    assert first.conditions == "speed 300 rpm, radial load 8 kN, oil temperature 60 degC"
+    assert stored.loads == without.loads
+    assert main(["fit", CASE, "rig.csv", "--vary", "loss_factor", "--rows"]) == 2
+
+
 def test_a_page_shows_values_points_and_pictures(report: api.FitReport, tmp_path: Path) -> None:
     page = api.report(report, tmp_path / "fit.html").read_text()
     assert report.sentence in page
