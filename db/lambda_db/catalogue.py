@@ -155,6 +155,9 @@ class SqlCatalogue:
         if not found:
             rollers = [row.designation for row in self._rows("SELECT designation FROM roller_design")]
             names = self._names_of(maker) or [*self.names("bearing"), *rollers]
+            if not nearest(designation, names):  # a maker and suffixes that are not here hide a number that is
+                numbers = re.findall(r"\d{3,}", wanted)
+                names = [name for name in names if any(number in name for number in numbers)] or names
             raise _error("designation", unknown_name("bearing", designation, names))
         makers = ", ".join(row.maker for row in found)
         if maker is not None:

@@ -249,7 +249,19 @@ def init_case(
     from lambda_core.case.case_io import apply_overrides, parse_case
 
     changed = apply_overrides(parse_case(text, f"case {name}"), changes)
+    if any(change.partition("=")[0].strip() == "lubricant.name" for change in changes):
+        _lubricant_known(changed)
     return _new_machine(changed, name, target, overwrite) if as_machine else write_new(changed, text, target, overwrite)
+
+
+def _lubricant_known(changed: Case | MachineCase) -> None:
+    """Refuse a new case whose lubricant no catalogue has."""
+    from contextlib import closing
+
+    name = changed.lubricant.name
+    if name is not None:
+        with closing(catalogue()) as opened:
+            opened.lubricant(name)
 
 
 _IS_MACHINE = "the case to start from is a machine already: leave out the option to write it as one"

@@ -267,6 +267,17 @@ def test_init_takes_load_speed_and_oil_on_its_line(call: Call, tmp_path: Path, m
     assert "go with --bearing" in err
 
 
+@pytest.mark.parametrize("bearing", ["SKF 6208", "SKF NU 208 ECP"])
+def test_init_refuses_an_oil_that_is_unknown(
+    bearing: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, _, err = call("init", "fan", "--bearing", bearing, "--oil", "FVA33")
+    assert code == 3
+    assert '"FVA33" is not a known lubricant; nearest: FVA3' in err
+    assert not Path("fan.toml").exists()
+
+
 @pytest.mark.parametrize("bearing", ["SKF 7208 BEP", "SKF 32208"])
 def test_the_axial_load_of_a_new_case_follows_from_a_given_radial_one(
     bearing: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -26,6 +26,7 @@ def test_one_maker_needs_no_name(catalogue: SqlCatalogue) -> None:
         ("6391", None, '"6391" is not a known bearing; nearest: 6'),
         ("6208", "FAG", '"FAG" is not a maker of 6208 in the catalogue; makers: KOYO, NSK, SKF, Syla2026'),
         ("7208B", "SKF", '"SKF" is not a maker of 7208B in the catalogue; makers: NSK; SKF has 7208BE, '),
+        ("FAG 7208-B-XL-TVP", None, "available: 7208A, 7208B, 7208BE, 7208C"),
         ("6209B", "NSK", '"6209B" is not a known bearing; nearest: 6209, '),
         ("6208'; DROP TABLE bearing; --", None, "is not a known bearing"),
         ("", None, "is not a known bearing"),

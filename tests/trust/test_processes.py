@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 
 from lambda_core import api
@@ -21,6 +22,7 @@ from lambda_core.domain import files, processes
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.results import writer
 from lambda_core.results.opening import BeingWrittenError
+from lambda_core.results.run_status import Status, process_identity
 from lambda_core.runs.loop import NothingLeftError
 
 CASE, SHORT = "6208-axial-1300", ["solver.duration=1 ms", "output.interval=0.1 ms"]
@@ -40,6 +42,27 @@ def test_a_process_exists_until_it_has_ended() -> None:
     child.wait()
     assert not processes.exists(child.pid)
     assert processes.exists(os.getpid())
+
+
+def test_on_macos_a_reused_process_id_is_another_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Know a process by its start without /proc.
+
+    A writer whose number was given out again counted as running, and nobody could continue its file.
+    """
+    read = Path.read_text
+
+    def without_proc(path: Path, *given: Any, **named: Any) -> str:
+        if path.parts[1:2] == ("proc",):
+            raise FileNotFoundError(path)
+        return read(path, *given, **named)
+
+    monkeypatch.setattr(Path, "read_text", without_proc)
+    writing = Status(process=process_identity(os.getpid()))
+    assert writing.alive()
+    start = psutil.Process().create_time()
+    monkeypatch.setattr(psutil.Process, "create_time", lambda _: start + 1.0)
+    assert processes.exists(os.getpid())
+    assert not writing.alive()
 
 
 def _hold(path: str, held: str) -> None:

@@ -7,7 +7,9 @@ Import it inside functions: Numba takes more than a second to load.
 # mypy: disable-error-code="no-untyped-call,attr-defined,assignment"
 from __future__ import annotations
 
+import atexit
 import contextlib
+import gc
 import hashlib
 import importlib.metadata
 import os
@@ -30,6 +32,9 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.role import Role
 from lambda_core.laws.jit import inlined, plain, stretches
 from lambda_core.laws.jit.plain import is_plain
+
+# What Numba makes is full of cycles: to look for them takes an ending interpreter half a second for nothing.
+atexit.register(gc.freeze)
 
 
 def _take_wide_vectors() -> None:
