@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -145,7 +146,7 @@ class _Point:
         return read_values(solved, [READ[name] for name in names], one=one)
 
 
-ROLLER_QUANTITIES = ("friction torque", "power loss", *(f"displacement {axis}" for axis in "xyz"))
+ROLLER_QUANTITIES = ("friction torque", "power loss", "cage speed", *(f"displacement {axis}" for axis in "xyz"))
 
 
 def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence[str]) -> FloatArray:
@@ -164,6 +165,8 @@ def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence
     values |= {f"displacement {axis}": found.inner_ring_displacement_um[i] for i, axis in enumerate("xyz")}
     if warm is not None:
         values |= {name: computed_temperature(warm, name) for name in names if name in TEMPERATURES}
+    if found.orbit_speed_ratio is not None:
+        values["cage speed"] = abs(30.0 / math.pi * found.orbit_speed_ratio * model.speeds[0])
     missing = [name for name in names if name not in values]
     if missing:
         raise UsageError(f"{model.name}: a roller bearing at this point has no {missing[0]}: {', '.join(values)}")

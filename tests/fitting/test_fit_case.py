@@ -277,3 +277,17 @@ def test_points_at_rest_have_displacements_and_no_torque() -> None:
     torque = parse_measurements("speed [1/min],friction torque [N mm]\n0,9\n500,900\n", "rest.csv")
     with pytest.raises(UsageError, match="line 2: a bearing at rest has no friction torque"):
         api.fit(CASE, torque, ["loss_factor"], suggest=False)
+
+
+def test_the_cage_speed_tells_the_contact_angle() -> None:
+    """Compare cage speeds under thrust with the kinematic ones.
+
+    A measured cage speed was no column.
+    """
+    subject = subject_of("6208-axial-1300")
+    for clearance in (5.0, 60.0):
+        at = (f"bearing.clearance={clearance} um",)
+        speed = subject.values(at, (), ("cage speed",), one=True)[0, 0]
+        model, found = api.check("6208-axial-1300", at, is_static=True), api.quasistatic("6208-axial-1300", at)
+        ratio = model.geometry.ball_diameter * np.cos(np.radians(found.contact_angle_deg[0])) / 60e-3
+        assert speed == pytest.approx(0.5 * 2750.0 * (1.0 - ratio), rel=2e-3)

@@ -109,6 +109,8 @@ def test_rollers_at_computed_temperatures_are_fitted_there() -> None:
     assert torque == pytest.approx(api.quasistatic(tables).friction_torque_Nmm, rel=1e-6)
     assert abs(oil - 50.0) > 2.0
     assert subject.deviations((), ("oil temperature",), ())["oil temperature"] > 0.0
+    cage = subject.values((), (), ("cage speed",), one=True)[0, 0]
+    assert cage == pytest.approx(2000.0 * api.quasistatic(tables).orbit_speed_ratio)
 
 
 def test_rollers_of_a_machine_have_the_errors_of_their_band() -> None:

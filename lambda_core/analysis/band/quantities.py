@@ -86,6 +86,7 @@ MEASURED: dict[str, Measured] = {
     "power loss": Measured("power_loss_W", "power", "W"),
     "minimum film": Measured("min_film_um", "small_length", "um"),
     "capacitance": Measured("bearing_capacitance_nF", "capacitance", "nF"),
+    "cage speed": Measured("cage_speed_rpm", "rotational_speed", "1/min"),
     "displacement x": Measured("inner_ring_displacement_um.x", "small_length", "um", is_signed=True),
     "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um", is_signed=True),
     "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um", is_signed=True),

@@ -123,6 +123,7 @@ READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "maximum pressure": _pressure,
     "capacitance": _capacitance,
     "rating life": _life,
+    "cage speed": lambda found: 30.0 / math.pi * abs(found.orbit),  # of a cage that follows the loaded balls
     **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
     **{name: _temperature(name) for name in _PLACES},
 }
