@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.regime_list import RADIAL, REFUSED, REGIMES, Regime, Samples
+from benchmarks.roller_regimes import ROLLER_REGIMES
 from lambda_core import api
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import LambdaError
@@ -103,7 +104,7 @@ def page() -> str:
         "| regime | simulated | steps | balance | at 1e-4 |",
         "|---|---|---|---|---|",
     ]
-    for regime in REGIMES:
+    for regime in (*REGIMES, *ROLLER_REGIMES):
         found, fine = run(regime), run(regime, FINE)
         assert found.reached
         assert regime.seen(found.samples)

@@ -10,6 +10,7 @@ import pytest
 
 from benchmarks.regime_list import AXIAL, RADIAL, REFUSED, REGIMES, Regime
 from benchmarks.regimes import BOUND, refusal, run
+from benchmarks.roller_regimes import ROLLER_REGIMES
 from lambda_core import api
 from lambda_core.domain.channels import LOSSES
 from lambda_core.solver.drivers.dynamics import BearingEngine
@@ -19,7 +20,10 @@ LONG = {"stop"}  # half a minute of one of them: run by name, and by the page of
 
 @pytest.mark.parametrize(
     "regime",
-    [pytest.param(regime, marks=[pytest.mark.slow] * (regime.name in LONG), id=regime.name) for regime in REGIMES],
+    [
+        *(pytest.param(regime, marks=[pytest.mark.slow] * (regime.name in LONG), id=regime.name) for regime in REGIMES),
+        *(pytest.param(regime, marks=pytest.mark.full, id=regime.name) for regime in ROLLER_REGIMES),
+    ],
 )
 def test_regime(regime: Regime) -> None:
     """Balance energy within 1e-3 in every regime.
