@@ -204,9 +204,10 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
     largest, ring = largest_contact(load)
     losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
     speed = found.relative_speed
-    edges = shoulders(
-        Grooves.of(dataclasses.asdict(model.geometry)), load, channels["contact_angle"], channels["semi_axis_a"]
-    )
+    edges: list[Shoulder] = []  # rollers touch ribs, not shoulders
+    if model.rollers is None:
+        grooves = Grooves.of(dataclasses.asdict(model.geometry))
+        edges = shoulders(grooves, load, channels["contact_angle"], channels["semi_axis_a"])
     per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
     pressure = float(channels["max_pressure"].max())
     films = span(channels["film_parameter"][carrying])

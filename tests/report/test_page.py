@@ -221,6 +221,23 @@ def test_a_report_of_one_bearing_has_four_pages(radial_run: Result, tmp_path: Pa
     assert "code of" not in page  # hashes stand in the appendix
 
 
+@pytest.mark.parametrize(
+    ("bearing", "words"),
+    [("SKF NU 208 ECP", "cylindrical (NU) roller bearing"), ("SKF 32208", "tapered roller bearing")],
+)
+def test_the_report_of_rollers_draws_and_names_rollers(bearing: str, words: str, tmp_path: Path) -> None:
+    """Name no balls in a report of rollers.
+
+    The sketch showed a deep groove ball bearing with as many balls.
+    """
+    case = api.init_case("rollers", path=tmp_path / "rollers.toml", bearing=bearing, changes=["loads.radial=5 kN"])
+    text = api.report(case, tmp_path / "rollers.html", appendices=[]).read_text(encoding="utf-8")
+    sheets = text.partition("<h2>Inputs")[0].partition("<body")[2]
+    assert words in sheets
+    assert "load of every roller" in sheets
+    assert not re.search(r"\bballs?\b|deep groove", sheets)
+
+
 def test_several_results_stand_in_one_document(radial_run: Result, tmp_path: Path) -> None:
     page = Page(api.report([radial_run, radial_run.path], tmp_path / "two.html").read_text(encoding="utf-8"))
     assert page.text.count("Loads, lives, losses") == 2

@@ -120,12 +120,14 @@ def bearing_part(
     found : QuasiStatic, BearingEquilibrium, BearingSummary or Summary
         Its numbers.
     geometry : mapping
-        Of the resolved model, SI.
+        Of the resolved model, SI, with `rollers` where it has them.
     loads : sequence of float
         Radial and axial load [N].
     """
+    element = "roller" if "rollers" in geometry else "ball"
     verdict: Verdict | None = found.verdict
-    tables = [table for table in (lives(found, units), breakdown(found, units), contacts(found, units)) if table.rows]
+    every = (lives(found, element), breakdown(found, units), contacts(found, units, element))
+    tables = [table for table in every if table.rows]
     return BearingPart(
         name=name,
         title=found.title,
@@ -136,9 +138,23 @@ def bearing_part(
         margins=margins(verdict, units) if verdict is not None else None,
         figures=key_figures(found, units),
         sketch=bearing_sketch(geometry, loads, speed, units),
-        loads=load_sketch(found.contacts, units),
+        loads=load_sketch(found.contacts, units, element),
         tables=tuple(tables),
     )
+
+
+def _geometry(model: Any) -> Mapping[str, Any]:
+    """Return sizes of a bearing, with those of its rollers.
+
+    The model is resolved or that of a result.
+    """
+    from lambda_core.results.provenance import plain
+
+    if isinstance(model, Mapping):
+        sizes, own = model["geometry"], model.get("rollers")
+    else:
+        sizes, own = plain(model.geometry), None if model.rollers is None else plain(model.rollers)
+    return sizes if own is None else {**sizes, "rollers": own}
 
 
 def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = ()) -> Chapter:
@@ -153,13 +169,12 @@ def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Seque
     found : QuasiStatic or MachineEquilibrium
         Its equilibrium.
     """
-    from lambda_core.results.provenance import plain
 
     if hasattr(model, "bearings"):
         return _machine_chapter(model, found, units, pictures)
     loads = _applied(model)
     speed = _speed(model)
-    part = bearing_part(found, plain(model.geometry), loads=loads, speed=speed, units=units)
+    part = bearing_part(found, _geometry(model), loads=loads, speed=speed, units=units)
     return Chapter(
         kind="case", title=found.title, subtitle=f"{model.name}, quasi-static at t = 0", state="equilibrium found",
         good=True, bearings=(part,), warnings=_sentences(found.warnings, units), inputs=case_inputs(model, units),
@@ -173,7 +188,7 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
 
     parts = tuple(
         bearing_part(
-            one, plain(seat.model.geometry), name=one.name, loads=(one.radial_load_N, one.axial_load_N), units=units
+            one, _geometry(seat.model), name=one.name, loads=(one.radial_load_N, one.axial_load_N), units=units
         )
         for one, seat in zip(found.bearings, model.bearings, strict=True)
     )
@@ -199,7 +214,7 @@ def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
     return tuple(
         bearing_part(
             one.with_band(band) if band is not None else one,
-            result.of_bearing(name).model["geometry"] if result.is_machine else result.model["geometry"],
+            _geometry(result.of_bearing(name).model if result.is_machine else result.model),
             name=name if several else "", loads=_carried(one), units=units,
         )
         for name, one in summary.bearings.items()

@@ -124,13 +124,13 @@ def _every_life(found: Any) -> list[tuple[str, str, str, float | None]]:
     return [(*name, life) for name, life in zip(names, lives_h, strict=True)]
 
 
-def lives(found: Any, units: UnitSystem = SI) -> Table:
+def lives(found: Any, element: str = "ball") -> Table:
     """Return rating lives with what they count."""
     counts = {
         "L10h": "catalogue's C and equivalent load",
         "Lnmh": "with a_ISO: cleanliness, film, fatigue limit",
-        "L10rh": "load of every ball: clearance, tilt, preload",
-        "Lnmrh": "load of every ball, and a_ISO",
+        "L10rh": f"load of every {element}: clearance, tilt, preload",
+        "Lnmrh": f"load of every {element}, and a_ISO",
     }
     rows = [(symbol, _life(life), standard, counts[symbol]) for _, symbol, standard, life in _every_life(found)]
     rating = getattr(found, "rating", None)
@@ -337,9 +337,9 @@ def breakdown(summary: Any, units: UnitSystem = SI) -> Table:
     return Table("friction torque by mechanism", ("mechanism", units.unit("N mm"), "%"), tuple(rows))
 
 
-def contacts(summary: Any, units: UnitSystem = SI) -> Table:
+def contacts(summary: Any, units: UnitSystem = SI, element: str = "ball") -> Table:
     load, film = units.unit("N"), units.unit("um")
-    head = ("ball", "ring", "azimuth deg", f"load {load}", "contact angle deg", f"film {film}", "capacitance pF")
+    head = (element, "ring", "azimuth deg", f"load {load}", "contact angle deg", f"film {film}", "capacitance pF")
     most = max((c.load_N for c in summary.contacts), default=0.0)
     rows = tuple(
         (

@@ -31,7 +31,7 @@ def bearing_sketch(
     Parameters
     ----------
     geometry : mapping
-        Of the resolved model, SI.
+        Of the resolved model, SI, with `rollers` where it has them.
     loads : sequence of float
         Radial and axial load [N]; empty where they are not known.
     speed : str
@@ -47,6 +47,9 @@ def bearing_sketch(
 
     parts = []
     for side in (1.0, -1.0):
+        if "rollers" in geometry:
+            parts += _rollers(geometry, side, at)
+            continue
         parts += [_ring(geometry, ring, side, scale, at) for ring in ("outer", "inner")]
         parts += _balls(geometry, side, scale, (x0, y0))
     left, right = x0 - 0.5 * width * scale, x0 + 0.5 * width * scale
@@ -110,8 +113,36 @@ def _balls(geometry: Mapping[str, Any], side: float, scale: float, centre: tuple
     return found
 
 
+def _rollers(geometry: Mapping[str, Any], side: float, at: Any) -> list[str]:
+    """Return the rings and the roller of one side.
+
+    Raceways are parallel to the roller's axis; ribs and the taper of the roller are not drawn.
+    """
+    own, half, middle = geometry["rollers"], 0.5 * float(geometry["width"]), 0.5 * float(geometry["pitch_diameter"])
+    radius, reach = 0.5 * float(own["diameter"]), 0.5 * float(own["length"])
+    sine, cosine = math.sin(float(own["contact_angle"])), math.cos(float(own["contact_angle"]))
+    found = []
+    for rim, way in (("outside_diameter", 1.0), ("bore_diameter", -1.0)):
+        edge, race, fall = side * 0.5 * float(geometry[rim]), middle + way * radius / cosine, half * sine / cosine
+        corners = (at(-half, edge), at(-half, side * (race + fall)), at(half, side * (race - fall)), at(half, edge))
+        found.append(f'<path class="b" d="M{"L".join(corners)}Z"/>')
+    ends = ((-reach, radius), (reach, radius), (reach, -radius), (-reach, -radius))
+    corners = tuple(at(a * cosine + r * sine, side * (middle - a * sine + r * cosine)) for a, r in ends)
+    return [*found, f'<path class="k" d="M{"L".join(corners)}Z"/>']
+
+
 def _words(geometry: Mapping[str, Any]) -> list[str]:
     """Return what the section is of."""
+    if own := geometry.get("rollers"):
+        angle, kind = float(own["contact_angle"]), str(own["kind"])
+        return [
+            f"{kind if kind in ('needle', 'tapered') else f'cylindrical ({kind})'} roller bearing",
+            f"{int(own['count'])} rollers of {1e3 * float(own['diameter']):.4g} mm",
+            f"{1e3 * float(own['length']):.4g} mm long",
+            f"pitch circle {1e3 * float(own['pitch_diameter']):.4g} mm",
+            f"contact angle {math.degrees(angle):.3g} deg" if angle else
+            f"clearance {1e6 * float(own['clearance']):.3g} um",
+        ]  # fmt: skip
     count, rows = int(geometry["ball_count"]), int(geometry.get("rows", 1))
     found = [
         kind_of(geometry).name,
@@ -245,10 +276,10 @@ def _svg(width: float, height: float, parts: Sequence[str], label: str) -> str:
 _ROSE = 130.0  # radius of the circle of balls [px]
 
 
-def load_sketch(contacts: Sequence[Any], units: UnitSystem = SI) -> str:
-    """Draw the load of each ball.
+def load_sketch(contacts: Sequence[Any], units: UnitSystem = SI, element: str = "ball") -> str:
+    """Draw the load of each ball or roller.
 
-    The balls are seen along +x, the load of each at the inner ring is a bar outwards.
+    They are seen along +x, the load of each at the inner ring is a bar outwards.
 
     Parameters
     ----------
@@ -278,4 +309,4 @@ def load_sketch(contacts: Sequence[Any], units: UnitSystem = SI) -> str:
     parts.append(f'<text class="s" x="{middle}" y="{middle - 4}" text-anchor="middle">inner ring loads</text>')
     parts.append(f'<text class="s" x="{middle}" y="{middle + 16}" text-anchor="middle">seen along +x, z up</text>')
     parts.insert(0, "<style>text{font-size:16px}</style>")
-    return _svg(size, size, parts, "Loads of the balls at the inner ring")
+    return _svg(size, size, parts, f"Loads of the {element}s at the inner ring")
