@@ -33,7 +33,8 @@ def view_statement(table: str) -> str:
     The user's rows, then those built-in rows that no user row replaces.
     """
     definition = Base.metadata.tables[table]
-    columns = ", ".join(column.name for column in definition.columns)
+    # Names of SQLite ignore case, attributes of rows do not: one changed letter in the user's file renames a column.
+    columns = ", ".join(f"{column.name} AS {column.name}" for column in definition.columns)
     if table in CHILDREN:
         parent, link, group = CHILDREN[table]
         hidden = [f"SELECT 1 FROM user.{parent} u WHERE {_same(link, 'u')}"]

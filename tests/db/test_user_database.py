@@ -390,3 +390,18 @@ def test_nothing_is_accepted_of_a_damaged_catalogue(catalogue: SqlCatalogue) -> 
     user_database().write_bytes(b"not a database, but long enough to be read as one" * 10)
     with pytest.raises(CatalogueError, match="the file is damaged"):
         user.accept(user_database())
+
+
+@pytest.mark.parametrize(("table", "column"), [("roller_design", "kind"), ("bearing", "width_mm")])
+def test_a_column_whose_case_changed_is_read_by_its_name(table: str, column: str, catalogue: SqlCatalogue) -> None:
+    """Read columns whatever the case of their names.
+
+    A changed byte in the file renamed `kind` to `kiNd`, which ended every command with an AttributeError.
+    """
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    _edit(f"ALTER TABLE {table} RENAME COLUMN {column} TO {column.replace('i', 'I')}")
+    again = open_catalogue()
+    assert again.bearing("6208", "NSK").width.value == pytest.approx(0.018)
+    assert {row.kind for row in again.rollers()} >= {"NU", "tapered"}
+    again.close()
