@@ -230,7 +230,7 @@ class MachineBearing(Bearing, Placed):
     def _sits(self) -> MachineBearing:
         preloaded = self.preload is not None or self.preload_force is not None
         if preloaded and self.takes is None:
-            raise ValueError('a preload needs takes = "+x" or "-x": the force on the shaft that it makes it carry')
+            raise ValueError('a preload needs takes = "+x" or "-x": the way in which the shaft pushes the bearing')
         if self.preload is not None and self.preload_force is not None:
             raise ValueError("give either `preload` (rigid) or `preload_force` (spring), not both")
         if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x.mode == "locked":

@@ -131,7 +131,7 @@ def export_fmu(
         write(task, announce)
     else:
         if announce is not None:
-            announce(f"exporting for {processor} (compiling takes one to three minutes the first time)")
+            announce(f"exporting for {processor} (compiling takes one to five minutes the first time)")
         _write_apart(task, processor)
     return target
 
