@@ -37,7 +37,8 @@ def test_its_command_draws_what_there_is(picture: gallery.Picture) -> None:
 
 def test_the_tutorial_reaches_a_report_in_five_commands() -> None:
     page = DOCS / "first-bearing.md"
-    typed = [step.text for step in page_examples.steps(page) if step.kind == "command"]
+    every = [step.text for step in page_examples.steps(page) if step.kind == "command"]
+    typed = [command for command in every if "thin.h5" not in command]  # another oil is a detour
     assert len(typed) <= 5
     assert typed[0].startswith("lambda-bearing init")
     assert typed[-1].startswith("lambda-bearing report")

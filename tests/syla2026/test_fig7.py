@@ -39,6 +39,7 @@ def test_fig7_meets_every_bar(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert {"fig7.svg", "fig7.png", "reproduction.html"} <= {path.name for path in folder.iterdir()}
 
 
+@pytest.mark.full
 def test_a_second_call_computes_nothing_again(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {path: path.stat().st_mtime_ns for path in (folder / "work").rglob("*") if path.is_file()}
     assert before
