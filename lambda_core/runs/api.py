@@ -98,8 +98,9 @@ def _roller_answer(
 
     None where the source is no case of one.
 
-    Bearings that do not run in time have no band: the ranges are those of laws in motion.
+    Bearings that do not run in time have no band and no warnings of limits in motion.
     """
+    from lambda_core.model.checks.operating_limits import operating_warnings
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 
     found = ready_rollers(source, overrides, announce)
@@ -107,14 +108,17 @@ def _roller_answer(
         return None
     model, warm = found
     answer = roller_quasistatic(model)
+    try:
+        warm = warm or ready_model(source, overrides, is_static=True)
+    except CaseError:
+        return answer
+    told = list(dict.fromkeys([*answer.warnings, *operating_warnings(warm)]))
+    answer = answer.model_copy(update={"warnings": told})
     if not band:
         return answer
     from lambda_core.analysis.band.model_band import band_or_reason
 
-    try:
-        return answer.with_band(band_or_reason(warm or ready_model(source, overrides, is_static=True)))
-    except CaseError:
-        return answer
+    return answer.with_band(band_or_reason(warm))
 
 
 @answers

@@ -16,6 +16,7 @@ from lambda_core import api
 from lambda_core.case.case_io import builtin_cases
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.checks.operating_limits import applied_load, heating_factor, operating_warnings
+from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.results.verdict import limits_of
 
 MOTOR = """\
@@ -147,3 +148,21 @@ def test_a_case_begun_for_a_bearing_holds_the_tilt_by_a_line(tmp_path: Path) -> 
     assert {model.inner_ring.dofs[dof].mode for dof in ("tilt_y", "tilt_z")} == {"locked"}
     sprung = api.check(path, ['bodies.inner_ring.tilt_y={ stiffness = "20 N m/mrad" }'])  # as its comment says
     assert sprung.inner_ring.dofs["tilt_y"].stiffness == pytest.approx(2e4)
+
+
+def test_an_operating_point_of_rollers_warns_of_oil_too_thick() -> None:
+    """Warn of rollers as of balls.
+
+    `check` warned; `quasistatic` printed a rolling resistance of 0.0 N mm without a word.
+    """
+    found = api.quasistatic(
+        {
+            "name": "cold",
+            "bearing": {"designation": "SKF NU 208 ECP"},
+            "loads": {"radial": "2 kN"},
+            "operation": {"speed": "9000 rpm"},
+            "lubricant": {"name": "mineral-vg32", "temperature": "-15 degC"},
+        }
+    )
+    assert isinstance(found, QuasiStatic)
+    assert sum("heating in the inlet leaves 0.14 of the film" in warning for warning in found.warnings) == 1
