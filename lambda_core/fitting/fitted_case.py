@@ -73,7 +73,8 @@ def with_fit(case: C, report: FitReport, *, rows: bool = False) -> C:
             continue
         _set(changes, parameter.path, f"{number:.{DIGITS}g} {parameter.unit}" if parameter.unit else number)
         shown = f"{compact(parameter.value, parameter.standard_error)} {parameter.unit}".rstrip()
-        sentences.append(f"{parameter.path} {shown}: fitted to {len(report.points)} values of {report.file}")
+        how = "best before an interrupted fit" if report.is_interrupted else "fitted"
+        sentences.append(f"{parameter.path} {shown}: {how} to {len(report.points)} values of {report.file}")
     changes["assumptions"] = [*case.assumptions, *sentences]
     changes["fit"] = {
         "file": report.file,

@@ -245,7 +245,9 @@ def test_an_early_interruption_keeps_values_with_the_errors_of_their_ranges(
     assert "determine" not in report.sentence
     assert report.left_out_rms_error_pct == pytest.approx(report.rms_error_pct)
     assert "e1" not in report.text()
-    api.quasistatic(api.fitted_case(CASE, report, tmp_path / "fitted.toml"), band=True)
+    case = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
+    assert "best before an interrupted fit to" in case.read_text(encoding="utf-8")
+    api.quasistatic(case, band=True)
 
 
 def test_points_to_predict_are_read_before_the_fit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
