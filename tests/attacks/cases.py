@@ -138,13 +138,13 @@ def _reason_that_holds(made: dict[str, Any]) -> str:
 
     Without the reason the case must be accepted.
     """
-    for reason, part, key in (
-        ("a law whose data the oil lacks", "models", None),
-        ("a clearance class that is not tabulated for this bore", "bearing", "clearance"),
+    bearing = {key: value for key, value in made["bearing"].items() if key != "clearance"}
+    for reason, without in (
+        ("a law whose data the oil lacks", {"models": {}}),
+        ("a clearance class that is not tabulated for this bore", {"bearing": bearing}),
+        ("a cage for which the estimated balls leave no room", {"depth": {"cage": False}}),
     ):
-        if part not in made:
-            continue
-        other = {**made, part: {} if key is None else {k: v for k, v in made[part].items() if k != key}}
+        other = {**made, **without}
         try:
             api.check(other)
         except LambdaError:

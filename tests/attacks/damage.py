@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 import random
+import re
 import shlex
 import shutil
 import time
@@ -76,7 +77,7 @@ def _part(folder: Path) -> str:
 
     Each may run in a process of its own.
     """
-    return folder.name.partition("-")[0]
+    return re.split("[-.]", folder.name)[0]
 
 
 def command(folder: Path) -> tuple[str, ...]:
