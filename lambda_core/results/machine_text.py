@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import wrapped
-from lambda_core.results.band_text import band_rows, ends, named_sources
+from lambda_core.results.band_text import band_rows, ends
+from lambda_core.results.bearing_table import band_lines, bearing_table, digits
 from lambda_core.results.quantity import quantities, shown
 from lambda_core.results.text import assumption_lines, element_lines, line, warning_lines, watched_lines
 
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
 
-_HEAD, _COLUMN = 26, 14
-
 
 def machine_text(found: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return the text of a machine's run.
@@ -29,15 +28,12 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     """
     each = list(found.bearings.values())
     rows = [("bearing", [one.title.split(" (")[0] for one in each]), *_rows(found, units)]
-    wide = max(_COLUMN, *(2 + len(cell) for cells in (list(found.bearings), *(c for _, c in rows)) for cell in cells))
-    names = "".join(f"{name:>{wide}}" for name in found.bearings)
     judged = [(name, one.verdict.lines(units)[0]) for name, one in found.bearings.items() if one.verdict]
     lines = [
         *wrapped([line(f"verdict {name}", sentence) for name, sentence in judged], width),
         f"{found.case}, {found.speed_rpm:.5g} 1/min",
         "",
-        f"{'':<{_HEAD}}{names}",
-        *(f"{head:<{_HEAD}}" + "".join(f"{cell:>{wide}}" for cell in cells) for head, cells in rows),
+        *bearing_table(list(found.bearings), rows),
         "",
     ]
     largest = max(found.orbit, key=lambda one: math.hypot(*one.swing_um[1:]))
@@ -47,7 +43,9 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     rest = [
         line("friction torque", f"{torque} of all bearings", verdict),
         *(line("not converged" if i == 0 else "", reason) for i, reason in enumerate(found.reasons)),
-        *_band_lines(found, units),
+        *band_lines(
+            found.friction_torque_Nmm_band, {name: one.model_band for name, one in found.bearings.items()}, units
+        ),
         line("power loss", f"{shown(found, 'power_loss_W', units)} of all bearings"),
         line("drive torque", shown(found, "drive_torque_Nm", units)),
         *([line("rating life", f"{hours(found.system_life_h)} of all bearings together (ISO/TS 16281, 90 %)")]
@@ -70,18 +68,6 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     return "\n".join([*lines, *wrapped(rest, width)])
 
 
-def _band_lines(found: Summary, units: UnitSystem) -> list[str]:
-    """Return the lines of the model band.
-
-    They give the torque of all bearings with its causes.
-    """
-    if not found.friction_torque_Nmm_band:
-        return []
-    sources = named_sources({name: one.model_band for name, one in found.bearings.items()}, units)
-    both = f"{ends(found.friction_torque_Nmm_band, 'N mm', units, named=True)} of all bearings (90 %)"
-    return [line("" if i else "model band", text) for i, text in enumerate([both, *sources])]
-
-
 _GROUPS = ("friction", "catalogue", "life", "cage", "film", "contact")  # of numbers, in the order of their rows
 _NO_ROW = ("place", "capacitance", "trust")  # groups that the text of a machine leaves to its bearings
 
@@ -98,8 +84,8 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     if any(one.currents for one in each):
         voltages = [max(map(abs, one.currents.bearing_voltage_V)) if one.currents else None for one in each]
         rates = [one.currents.discharges_per_s if one.currents else None for one in each]
-        rows += [("bearing voltage V", [_digits(volts, 3) for volts in voltages])]
-        rows += [("discharges 1/s", [_digits(rate) for rate in rates])]
+        rows += [("bearing voltage V", [digits(volts, 3) for volts in voltages])]
+        rows += [("discharges 1/s", [digits(rate) for rate in rates])]
     for k, axis in enumerate("xyz"):
         head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {units.unit('N')}"
         rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))
@@ -134,12 +120,8 @@ def _pair(value: float | None, width: float | None, unit: str, units: UnitSystem
     """
     if value is None:
         return NONE
-    text = _digits(units.value(value, unit))
-    return text if width is None else f"{text} ± {_digits(units.value(width, unit), 2)}"
-
-
-def _digits(value: float | None, digits: int = 4) -> str:
-    return NONE if value is None else f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
+    text = digits(units.value(value, unit))
+    return text if width is None else f"{text} ± {digits(units.value(width, unit), 2)}"
 
 
 def _length(value: float, units: UnitSystem) -> str:
@@ -148,4 +130,4 @@ def _length(value: float, units: UnitSystem) -> str:
 
 def _swung(one: Swing, axis: int, units: UnitSystem) -> str:
     mean, swing = (units.value(values[axis], "um") for values in (one.mean_um, one.swing_um))
-    return f"{_digits(mean, 3)} ± {_digits(swing, 2)} {units.unit('um')}"
+    return f"{digits(mean, 3)} ± {digits(swing, 2)} {units.unit('um')}"

@@ -12,7 +12,9 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.model.checks.describe import assumption_block, verdict_line
 from lambda_core.model.checks.operating_limits import operating_warnings
-from lambda_core.results.band_text import band_rows, ends, named_sources
+from lambda_core.results.band_text import band_rows, ends
+from lambda_core.results.bearing_table import COLUMN, band_lines, bearing_table, digits
+from lambda_core.results.bearing_table import HEAD as TABLE_HEAD
 from lambda_core.results.quantity import Quantity, quantities
 from lambda_core.results.rating import Rating
 from lambda_core.results.text import contamination_text, line
@@ -22,15 +24,8 @@ if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_modes import BearingMatrices, MachineModes
     from lambda_core.model.machine_model import MachineModel
 
-_HEAD, _COLUMN = 24, 14
 _AT_REST, _NO_LIFE = "none: nothing turns", "none: no bearing has a rating life"
 _FAR = 10  # times the running speed: critical speeds beyond it are counted only
-
-
-def _digits(value: float | None, digits: int = 4) -> str:
-    if value is None:
-        return NONE
-    return f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
 
 
 @dataclass(frozen=True)
@@ -57,7 +52,7 @@ class _Row:
             return found
         if self.quantity is not None:
             return self.quantity.cell(found, units)
-        return _digits(None if found is None else units.value(found, self.unit), self.digits)
+        return digits(None if found is None else units.value(found, self.unit), self.digits)
 
 
 # The unit of a direction that stands below the first one is that of the first.
@@ -120,7 +115,6 @@ def _table(
     rows: tuple[_Row, ...], bearings: Sequence[BearingEquilibrium | BearingMatrices], units: UnitSystem
 ) -> list[str]:
     """Return a table with a column for each bearing."""
-    names = [bearing.name for bearing in bearings]
     cells = [
         (
             row.label if row.label.startswith(" ") else row.head(units),
@@ -128,9 +122,7 @@ def _table(
         )
         for row in rows
     ]
-    wide = max(_COLUMN, 1 + max(len(text) for row in (names, *(row for _, row in cells)) for text in row))
-    table = [f"{head:<{_HEAD}}" + "".join(f"{text:>{wide}}" for text in row) for head, row in cells]
-    return [f"{'':<{_HEAD}}" + "".join(f"{name:>{wide}}" for name in names), *table]
+    return bearing_table([bearing.name for bearing in bearings], cells)
 
 
 def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units: UnitSystem = SI) -> str:
@@ -162,9 +154,9 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     beyond = len(found.critical_speeds) - len(near)
     more = f"   {beyond} more beyond {_FAR} times the speed: --json" if beyond else ""
     lines = [f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE}{more}", ""]
-    table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
+    table = [f"{'frequency Hz':<{TABLE_HEAD}}{'damping %':>{COLUMN}}   motion"]
     table += [
-        f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "
+        f"{f'{mode.frequency_Hz:.5g}':<{TABLE_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{COLUMN}}   "
         f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind == 'bending' else ''}{_with_bodies(mode.bodies_share)}"
         for mode in found.modes
     ]
@@ -175,25 +167,13 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     return "\n".join([*head, *wrapped(lines, width), *table, "", *matrices, *wrapped(notes, width)])
 
 
-def _band_lines(report: MachineEquilibrium) -> list[str]:
-    """Return the lines of the model band.
-
-    They give the torque of all bearings with its causes.
-    """
-    if not report.friction_torque_Nmm_band:
-        return []
-    sources = named_sources({one.name: one.model_band for one in report.bearings})
-    sum_ = f"{ends(report.friction_torque_Nmm_band, 'N mm', named=True)} of all bearings (90 %)"
-    return [f"{'' if i else 'model band':<{HEAD}}{text}" for i, text in enumerate([sum_, *sources])]
-
-
 def _torque(report: MachineEquilibrium) -> str:
     """Return the torque of all bearings.
 
     The text names the bearings whose torque is unknown.
     """
     if report.friction_torque_Nmm is not None:
-        return f"{_digits(report.friction_torque_Nmm)} N mm of all bearings"
+        return f"{digits(report.friction_torque_Nmm)} N mm of all bearings"
     unknown = [one.name for one in report.bearings if one.friction_torque_Nmm is None]
     return f"unknown: no steady motion was found in {', '.join(unknown)}"
 
@@ -227,16 +207,16 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         f"{'system life':<{HEAD}}{_AT_REST if resting else life}",
         *(f"{'modified lives':<{HEAD}}with {text}" for text in sorted(clean)),
         f"{'friction torque':<{HEAD}}{_AT_REST if resting else _torque(report)}",
-        *_band_lines(report),
-        f"{'drive torque':<{HEAD}}{_digits(report.drive_torque_Nm)} N m",
+        *band_lines(report.friction_torque_Nmm_band, {one.name: one.model_band for one in report.bearings}),
+        f"{'drive torque':<{HEAD}}{digits(report.drive_torque_Nm)} N m",
     ]
     for name, (tangential, radial, axial) in report.gears.items():
         lines.append(f"{'gear ' + name:<{HEAD}}F_t {tangential:.4g} N   F_r {radial:.4g} N   F_a {axial:.4g} N")
     for name, (x, y, z) in report.springs.items():
-        lines.append(f"{'spring ' + name:<{HEAD}}force x {_digits(x)} N   y {_digits(y)} N   z {_digits(z)} N")
+        lines.append(f"{'spring ' + name:<{HEAD}}force x {digits(x)} N   y {digits(y)} N   z {digits(z)} N")
     for name, moved in (*report.bodies.items(), *report.markers.items()):
         each = zip("xyz", moved.displacement_um, strict=True)
-        lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {_digits(um, 3)} um" for axis, um in each))
+        lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {digits(um, 3)} um" for axis, um in each))
     told = [*report.warnings, *(f"{one.name}: {warning}" for one in report.bearings for warning in one.warnings)]
     lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in told]
     own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]
