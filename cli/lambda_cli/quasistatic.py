@@ -34,24 +34,18 @@ def quasistatic(
     Prints loads, contact angles, films and friction at t = 0, without time and cage.
 
     For a machine it solves elastic shaft, bearings, housing, preload, thermal clearance and gear forces, and prints
-    reactions, deflection, lives and friction of every bearing. --draw is for machines: shaft, deflection and bending
-    moment.
+    reactions, deflection, lives and friction of every bearing. --draw writes one bearing with the load on its ring and
+    balls, or shaft, deflection and bending moment of a machine.
     """
     from lambda_core import api
 
-    source, several = case, api.is_machine(case)
     if draw is not None:
-        if not several:
-            raise api.UsageError("--draw needs a machine; for one bearing use lambda-bearing run, then view")
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        model = api.check(source, changes or ()) if several else None
-        found = api.quasistatic(
-            model or source, () if model else changes or (), band=band is Bands.MODEL, announce=speaker.say
-        )
+        found = api.quasistatic(case, changes or (), band=band is Bands.MODEL, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
-    if draw is not None and model is not None:
-        _draw(api.machine_pictures(model, equilibrium=found), draw, case, units)  # type: ignore[arg-type]
+    if draw is not None:
+        _draw(api.machine_pictures(found), draw, case, units)
 
 
 def modes(
@@ -81,13 +75,12 @@ def modes(
     if stiffness is not None:
         api.stiffness_target(stiffness)
     with talk(progress, quiet) as speaker:
-        model = api.check(case, changes or ()) if api.is_machine(case) else None
-        found = api.modes(model or case, announce=speaker.say)
+        found = api.modes(case, changes or (), announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if stiffness is not None:
         typer.echo(str(api.write_stiffness(found, stiffness)), err=True)
-    if draw is not None and isinstance(model, api.MachineModel):
-        _draw(api.machine_pictures(model, modes=found), draw, case, units)
+    if draw is not None:
+        _draw(api.machine_pictures(modes=found), draw, case, units)
 
 
 def _draw(views: list[ViewData], folder: Path, case: str, units: Units) -> None:

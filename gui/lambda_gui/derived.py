@@ -214,14 +214,12 @@ _LONG = {
 def _warned_by(found: Any) -> list[str]:
     """Return unmet requirements and warnings.
 
-    Those of a bearing on a shaft begin with its name.
+    Those of several bearings begin with their names.
     """
-    bearings = getattr(found, "bearings", None)
-    if bearings is None:
-        return [*_not_met(found.verdict), *found.warnings]
     return [
-        f"{bearing.name}: {text}" for bearing in bearings for text in (*_not_met(bearing.verdict), *bearing.warnings)
-    ]
+        f"{name}: {text}" if len(found.each) > 1 else text
+        for name, one in found.each.items() for text in (*_not_met(one.verdict), *one.warnings)
+    ]  # fmt: skip
 
 
 def _not_met(verdict: Any) -> list[str]:

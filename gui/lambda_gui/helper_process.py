@@ -48,10 +48,9 @@ def _equilibrium(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
     found = api.quasistatic(model, announce=say)
-    if not api.is_machine(model):
-        return found.text(None, units), []
-    modes = api.modes(model, announce=say)
-    return f"{found.text(None, units)}\n\n{modes.text(None, units)}", api.machine_pictures(model, found, modes)  # type: ignore[arg-type]
+    modes = api.modes(model, announce=say) if api.is_machine(model) else None
+    told = [answer.text(None, units) for answer in (found, modes) if answer is not None]
+    return "\n\n".join(told), api.machine_pictures(found, modes)
 
 
 def _temperatures(say: Say, model: Any, units: Any) -> Any:

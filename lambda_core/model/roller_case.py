@@ -144,6 +144,14 @@ class RollerModel:
         return (carried + self.outer_loads) / self.support
 
     @property
+    def bearing_models(self) -> dict[str, RollerModel]:
+        """Itself, under the empty name.
+
+        A model in motion has the same property.
+        """
+        return {"": self}
+
+    @property
     def warnings(self) -> list[str]:
         """Warnings of the catalogue's limits.
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from lambda_core.domain.number_text import NONE
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.domain.wrapping import HEAD as INDENT
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.model_band import ModelBand
-from lambda_core.results.text import line
 
 HEAD, COLUMN = 24, 14  # least widths
 
@@ -24,7 +24,7 @@ def bearing_table(names: Sequence[str], rows: Sequence[tuple[str, Sequence[str]]
 
 
 def digits(value: float | None, count: int = 4) -> str:
-    """Write a number for a cell with so many significant digits."""
+    """Write a number with some significant digits for a cell."""
     return NONE if value is None else f"{0.0 if abs(value) < 5e-5 else value:.{count}g}"
 
 
@@ -36,4 +36,6 @@ def band_lines(band: Sequence[float], bearings: Mapping[str, ModelBand | None], 
     if not band:
         return []
     both = f"{ends(band, 'N mm', units, named=True)} of all bearings (90 %)"
-    return [line("" if i else "model band", text) for i, text in enumerate([both, *named_sources(bearings, units)])]
+    return [
+        f"{'' if i else 'model band':<{INDENT}}{text}" for i, text in enumerate([both, *named_sources(bearings, units)])
+    ]

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, PrivateAttr
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.model.checks.operating_limits import operating_warnings
@@ -22,11 +23,12 @@ from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import CONTACT_UNITS, BearingSummary, Contact
 from lambda_core.results.bearing_summary import Equilibrium as StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
-from lambda_core.results.model_band import Banded
+from lambda_core.results.model_band import Banded, ModelBand
 from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.ring_shape import RingShape, ring_shape
+from lambda_core.results.samples import ALONE
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.arrays import bundle as L
@@ -105,12 +107,84 @@ class BearingStatics(Banded):
         description="where the case or the state leaves what bearing, oil and laws are made for"
     )
 
+    @property
+    def ring_displacement_um(self) -> list[float]:
+        """Displacement x, y, z of the inner ring [um].
 
-class QuasiStatic(BearingStatics, Answer):
-    """Quasi-static solution of a bearing that is alone."""
+        On a shaft it is that against the outer ring.
+        """
+        raise NotImplementedError
+
+
+class StaticAnswer(Answer):
+    """Quasi-static equilibrium of any machine.
+
+    It is a :class:`QuasiStatic` of a bearing that is alone, or a MachineEquilibrium of a shaft in its bearings. The
+    two are solved for different unknowns: the poses of both rings, or those of a shaft with the reactions of such
+    bearings. What holds for both is declared here, and what holds for a bearing of either in :class:`BearingStatics`.
+    """
 
     interface: int = INTERFACE
-    case: str
+    case: str = Field(description="name of the case")
+    iterations: int = Field(description="of Newton's method")
+    assumptions: list[str] = Field(description="assumed values and simplifications")
+    _model: Any = PrivateAttr(default=None)
+
+    def __getstate__(self) -> dict[Any, Any]:
+        """Return the state without the model.
+
+        Compiled laws cannot go to another process.
+        """
+        state = super().__getstate__()
+        return state | {"__pydantic_private__": (state["__pydantic_private__"] or {}) | {"_model": None}}
+
+    @property
+    def each(self) -> Mapping[str, BearingStatics]:
+        """Every bearing by its name."""
+        raise NotImplementedError
+
+    def bearing(self, name: str) -> BearingStatics:
+        """Return one bearing by its name.
+
+        UsageError with the nearest name where there is none.
+        """
+        if name not in self.each:
+            raise UsageError(unknown_name("bearing", name, self.each))
+        return self.each[name]
+
+    def warned(self) -> list[str]:
+        """Return all warnings.
+
+        Those of a bearing on a shaft begin with its name.
+        """
+        raise NotImplementedError
+
+    def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
+        """Return the same with the model band of each bearing."""
+        raise NotImplementedError
+
+    def of_model(self, model: Any) -> Self:
+        """Return this answer, which remembers its model for pictures."""
+        self._model = model
+        return self
+
+    def solved(self) -> Any:
+        """Return the model that was solved.
+
+        UsageError for an equilibrium that was read from data.
+        """
+        if self._model is None:
+            raise UsageError(f"{self.case}: this equilibrium has no model; solve its case again")
+        return self._model
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON."""
+        return self.model_dump(mode="json")
+
+
+class QuasiStatic(BearingStatics, StaticAnswer):
+    """Quasi-static solution of a bearing that is alone."""
+
     headline: str
     inner_ring_displacement_um: list[float] = same_as(BearingSummary, "inner_ring_displacement_um", "x, y, z")
     axial_play_um: float | None = Field(
@@ -118,8 +192,24 @@ class QuasiStatic(BearingStatics, Answer):
         default=None,
     )
     inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
-    iterations: int
-    assumptions: list[str]
+
+    @property
+    def each(self) -> Mapping[str, BearingStatics]:
+        """The only bearing by the name that results give it."""
+        return {ALONE: self}
+
+    @property
+    def ring_displacement_um(self) -> list[float]:
+        """Displacement x, y, z of the inner ring [um]."""
+        return self.inner_ring_displacement_um
+
+    def warned(self) -> list[str]:
+        """Return all warnings."""
+        return list(self.warnings)
+
+    def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
+        """Return the same with the model band of the bearing."""
+        return self.with_band(bands[ALONE])
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines of text in some units.
@@ -140,7 +230,7 @@ class QuasiStatic(BearingStatics, Answer):
         matplotlib.figure.Figure
             ``savefig`` writes it.
         """
-        return drawn(None, self, None, name, options)
+        return drawn(self._model, self, None, name, options)
 
     def to_xarray(self) -> Any:
         """Return contacts and numbers as an xarray.Dataset.
@@ -186,7 +276,7 @@ def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiSta
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         iterations=found.iterations,
         assumptions=list(model.assumptions),
-    )
+    ).of_model(model)
 
 
 def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> dict[str, Any]:

@@ -127,7 +127,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         iterations=state.steps,
         assumptions=[*model.assumptions, *_ASSUMED],
-    )
+    ).of_model(model)
 
 
 def roller_statics(model: RollerModel, solved: SolvedRollers) -> dict[str, Any]:

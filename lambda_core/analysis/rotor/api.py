@@ -40,7 +40,7 @@ def machine_equilibrium(
         return found
     from lambda_core.analysis.band.model_band import bands_or_reason
 
-    return found.with_bands(bands_or_reason(model, state))
+    return found.with_bands(bands_or_reason(model, state).bearings)
 
 
 @answers

@@ -5,31 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self, cast
 
 import numpy as np
-from pydantic import Field, PrivateAttr
+from pydantic import Field
 
 from lambda_core.analysis.rating.engineering import mounted_rating
 from lambda_core.analysis.rotor.machine_modes import AXES, six
 from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import internal_forces
 from lambda_core.formulas.life import system_life
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place, is_on_cage
-from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
+from lambda_core.results.answer import dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.limits import warnings
-from lambda_core.results.model_band import MachineBand, sum_of_bands
+from lambda_core.results.model_band import ModelBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
-from lambda_core.results.quasistatic import BearingStatics, bearing_statics
+from lambda_core.results.quasistatic import BearingStatics, StaticAnswer, bearing_statics
 from lambda_core.results.rating import Rating, rated_verdict
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
@@ -109,6 +108,11 @@ class BearingEquilibrium(BearingStatics, MountedState):
         BearingSummary, "power_loss_W", "of the friction; null where the balls have no steady motion"
     )
 
+    @property
+    def ring_displacement_um(self) -> list[float]:
+        """Displacement x, y, z between the rings [um]."""
+        return self.displacement_um
+
 
 class BodyMoved(Record):
     """Displacement of a body or place as drawn."""
@@ -117,14 +121,12 @@ class BodyMoved(Record):
     tilt_mrad: list[float] = Field(description="about x, y and z")
 
 
-class MachineEquilibrium(Answer):
+class MachineEquilibrium(StaticAnswer):
     """Quasi-static equilibrium of a machine.
 
     It holds loads, deflection, lives and friction of its bearings.
     """
 
-    interface: int = INTERFACE
-    case: str = Field(description="name of the case")
     speed_rpm: float = Field(description="of the shaft")
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
     bearings: list[BearingEquilibrium] = Field(description="from left to right")
@@ -150,14 +152,31 @@ class MachineEquilibrium(Answer):
     shear_N: list[list[float]] = Field(description="along y and z")
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
     torque_Nm: list[float] = Field(description="about x, of the right side on the left")
-    iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
     warnings: list[str] = Field(default=[], description="geometric conflicts of parts on the shaft")
-    assumptions: list[str] = Field(description="assumed values and simplifications")
 
-    def with_bands(self, found: MachineBand) -> MachineEquilibrium:
+    @property
+    def each(self) -> Mapping[str, BearingEquilibrium]:
+        """Every bearing by its name, from left to right."""
+        return {one.name: one for one in self.bearings}
+
+    def bearing(self, name: str) -> BearingEquilibrium:
+        """Return one bearing by its name.
+
+        UsageError with the nearest name where there is none.
+        """
+        return cast("BearingEquilibrium", super().bearing(name))
+
+    def warned(self) -> list[str]:
+        """Return all warnings.
+
+        Those of a bearing begin with its name.
+        """
+        return [*self.warnings, *(f"{one.name}: {warning}" for one in self.bearings for warning in one.warnings)]
+
+    def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
         """Return the same with the model bands of its bearings."""
-        each = [one.with_band(found.bearings[one.name]) for one in self.bearings]
+        each = [one.with_band(bands[one.name]) for one in self.bearings]
         torque = sum_of_bands([one.friction_torque_Nmm_band for one in each])
         return self.model_copy(update={"bearings": each, "friction_torque_Nmm_band": torque})
 
@@ -169,20 +188,6 @@ class MachineEquilibrium(Answer):
         from lambda_core.analysis.rotor.machine_text import equilibrium_text
 
         return equilibrium_text(self, width, units)
-
-    _model: MachineModel | None = PrivateAttr(default=None)
-
-    def __getstate__(self) -> dict[Any, Any]:
-        """Return the state without the model.
-
-        Compiled laws cannot go to another process.
-        """
-        state = super().__getstate__()
-        return state | {"__pydantic_private__": (state["__pydantic_private__"] or {}) | {"_model": None}}
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data, ready for JSON."""
-        return self.model_dump(mode="json")
 
     def plot(self, name: str = "shaft", **options: Any) -> Any:
         """Return a view of the machine as a matplotlib figure.
@@ -204,7 +209,7 @@ class MachineEquilibrium(Answer):
         UsageError
             For a view or an option that does not exist, or an equilibrium that has no machine.
         """
-        return drawn(self._solved(), self, None, name, options)
+        return drawn(self.solved(), self, None, name, options)
 
     def to_xarray(self) -> Any:
         """Return bearings and deflection as an xarray.Dataset.
@@ -226,21 +231,6 @@ class MachineEquilibrium(Answer):
         data |= lives
         data["deflection_um"] = (("position", "xyz"), np.array(self.deflection_um), {"units": "um"})
         return dataset(data, labels | {"position": self.positions_mm}, {"case": self.case, "speed_rpm": self.speed_rpm})
-
-    def _solved(self) -> MachineModel:
-        if self._model is None:
-            raise UsageError(f"{self.case}: this equilibrium has no machine; solve its case again")
-        return self._model
-
-    def bearing(self, name: str) -> BearingEquilibrium:
-        """Return one bearing by its name.
-
-        UsageError with the nearest name where there is none.
-        """
-        found = {bearing.name: bearing for bearing in self.bearings}
-        if name not in found:
-            raise UsageError(unknown_name("bearing", name, found))
-        return found[name]
 
     def __repr__(self) -> str:
         """Return case, speed and the loads of the bearings."""
@@ -270,7 +260,7 @@ def equilibrium_of(
     lives = [life for b in bearings if (life := b.rating.reference_life_h) is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
-    found = MachineEquilibrium(
+    return MachineEquilibrium(
         case=model.name,
         speed_rpm=rpm,
         bearings=bearings,
@@ -296,9 +286,7 @@ def equilibrium_of(
         residual=state.residual,
         warnings=list(model.warnings),
         assumptions=list(model.assumptions),
-    )
-    found._model = model
-    return found
+    ).of_model(model)
 
 
 def _preloaded(one: BearingEquilibrium, found: Preload) -> BearingEquilibrium:

@@ -217,8 +217,7 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
     for name, moved in (*report.bodies.items(), *report.markers.items()):
         each = zip("xyz", moved.displacement_um, strict=True)
         lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {digits(um, 3)} um" for axis, um in each))
-    told = [*report.warnings, *(f"{one.name}: {warning}" for one in report.bearings for warning in one.warnings)]
-    lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in told]
+    lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in report.warned()]
     own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]
     rest = f"and {len(report.assumptions) - len(own)} of the bearings and their laws: lambda-bearing check, --json"
     return lines + [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate([*own, rest])]

@@ -15,14 +15,13 @@ from lambda_core.studies.api import study_status
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.export.report.chapters import Chapter
     from lambda_core.export.report.gallery import ViewCard
     from lambda_core.export.report.key_tables import Table
     from lambda_core.export.report.page import Cover
     from lambda_core.fitting.report import FitReport
-    from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.quasistatic import StaticAnswer
     from lambda_core.results.reader import Result
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
@@ -116,16 +115,14 @@ def view_all(
         yield found.name, data
 
 
-def machine_pictures(
-    model: MachineModel, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
-) -> list[ViewData]:
-    """Draw a machine: deflection, bending moment, natural frequencies over speed.
+def machine_pictures(equilibrium: StaticAnswer | None = None, modes: MachineModes | None = None) -> list[ViewData]:
+    """Draw a bearing or a machine at its operating point.
+
+    One bearing under its load; deflection and bending moment of a shaft, its natural frequencies over speed.
 
     Parameters
     ----------
-    model : MachineModel
-        From :func:`check`.
-    equilibrium : MachineEquilibrium, optional
+    equilibrium : QuasiStatic or MachineEquilibrium, optional
         From :func:`quasistatic`.
     modes : MachineModes, optional
         From :func:`modes`.
@@ -134,12 +131,18 @@ def machine_pictures(
     -------
     list of ViewData
         For :func:`draw`: every installed view of a machine that has something to show.
+
+    Raises
+    ------
+    UsageError
+        For an equilibrium that was read from data.
     """
     from lambda_core.discovery.api import registry
     from lambda_core.export.report.gallery import every
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import MachineData
 
+    model = equilibrium.solved() if equilibrium is not None else None
     shown = every(registry(), MachineData(model, equilibrium, modes), "machine")
     return [data for _, data in shown if isinstance(data, ViewData)]
 

@@ -177,7 +177,7 @@ def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Seque
     part = bearing_part(found, _geometry(model), loads=loads, speed=speed, units=units)
     return Chapter(
         kind="case", title=found.title, subtitle=f"{model.name}, quasi-static at t = 0", state="equilibrium found",
-        good=True, bearings=(part,), warnings=_sentences(found.warnings, units), inputs=case_inputs(model, units),
+        good=True, bearings=(part,), warnings=_sentences(found.warned(), units), inputs=case_inputs(model, units),
         notes=(_QUASISTATIC,),
     )  # fmt: skip
 
@@ -193,11 +193,11 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
         for one, seat in zip(found.bearings, model.bearings, strict=True)
     )
     sizes = {one.name: _size(plain(one.model.geometry)) for one in model.bearings}
-    warned = [*found.warnings, *(f"{one.name}: {text}" for one in found.bearings for text in one.warnings)]
     return Chapter(
         kind="case", title=f"{model.name}: {' + '.join(one.title.split(' (')[0] for one in found.bearings)}",
         subtitle=f"{found.speed_rpm:.5g} 1/min, quasi-static at t = 0", state="equilibrium found", good=True,
-        bearings=parts, warnings=_sentences(warned, units), sketch=shaft_sketch(machine_data(model), sizes, units),
+        bearings=parts, warnings=_sentences(found.warned(), units),
+        sketch=shaft_sketch(machine_data(model), sizes, units),
         overview=(machine_figures(found, units), machine_reactions(found, units)), shown=tuple(pictures),
         inputs=machine_inputs(model, units), notes=(_QUASISTATIC,),
     )  # fmt: skip

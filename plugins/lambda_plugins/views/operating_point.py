@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from lambda_core.plugins import Arrows, Axis, MachineData, Mark, NotApplicable, Options, Panel, Series, View, ViewData
+from lambda_plugins.views.bearing_section import Sizes, against_the_shaft, box, enlarged, from_the_side, outline
 
 _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
@@ -25,9 +26,9 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
 
     They share one axis.
     """
-    model, report = machine.model, machine.equilibrium
-    if report is None:
-        raise NotApplicable("this view needs an equilibrium, and none was solved")
+    model, report = machine.model, _solved(machine)
+    if not _has_shaft(report):
+        raise NotApplicable("this view shows a shaft, and this case has one bearing without a shaft")
     along = Axis("position", "mm", low=min(0.0, 1e3 * model.outline[0][0]), high=1e3 * model.outline[-1][1])
     places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
     moved, moments = np.array(report.deflection_um), np.array(report.bending_moment_Nm)
@@ -60,23 +61,23 @@ def _drawing(model: Any, report: Any) -> Panel:
 
     It shows its bearings and discs, and the reactions as arrows.
     """
-    series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
-    bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
+    series = [outline("shaft", [box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
+    bores = [box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
     if bores:
-        series.append(_loop("bore", bores, "reference"))
+        series.append(outline("bore", bores, "reference"))
     rings = []
     for bearing in model.bearings:
         g, middle = bearing.model.geometry, 1e3 * bearing.position
         for sign in (1.0, -1.0):
             low, high = sorted((sign * 500.0 * g.bore_diameter, sign * 500.0 * g.outside_diameter))
-            rings.append(_box(middle - 500.0 * g.width, middle + 500.0 * g.width, low, high))
-    series.append(_loop("bearings", rings, "outer"))
+            rings.append(box(middle - 500.0 * g.width, middle + 500.0 * g.width, low, high))
+    series.append(outline("bearings", rings, "outer"))
     tall = max(d for _, _, d, _ in model.outline)
     if model.discs:
-        series.append(_loop("discs", [_box(1e3 * x - 1.0, 1e3 * x + 1.0, -800.0 * tall, 800.0 * tall)
+        series.append(outline("discs", [box(1e3 * x - 1.0, 1e3 * x + 1.0, -800.0 * tall, 800.0 * tall)
                                       for _, x in model.discs], "cage"))  # fmt: skip
     if model.wheels:
-        series.append(_loop("gears", [_box(1e3 * x - 0.05 * pitch * 1e3, 1e3 * x + 0.05 * pitch * 1e3, -500.0 * pitch,
+        series.append(outline("gears", [box(1e3 * x - 0.05 * pitch * 1e3, 1e3 * x + 0.05 * pitch * 1e3, -500.0 * pitch,
                                            500.0 * pitch) for _, x, pitch in model.wheels], "reference"))  # fmt: skip
     if model.load_places:
         spots = np.array([1e3 * x for _, x in model.load_places])
@@ -91,28 +92,61 @@ def _drawing(model: Any, report: Any) -> Panel:
     )  # fmt: skip
 
 
-def _box(left: float, right: float, low: float, high: float) -> list[tuple[float, float]]:
-    return [(left, low), (left, high), (right, high), (right, low), (left, low)]
-
-
-def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Series:
-    """Return boxes as one line, broken between them."""
-    points = np.array([point for box in boxes for point in [*box, (np.nan, np.nan)]])
-    return Series(name, points[:, 0], points[:, 1], "line", role)
-
-
 def ball_loads(machine: MachineData, options: Options) -> ViewData:
     """Return the ball loads over azimuth.
 
     It shows both rings, with a panel for each bearing.
     """
-    found = machine.equilibrium
-    if found is None or not hasattr(next(iter(getattr(found, "bearings", [found]))), "contacts"):
-        raise NotApplicable("this view needs an equilibrium of balls")
-    each = {one.name: one for one in found.bearings} if hasattr(found, "bearings") else {"": found}
-    panels = tuple(_loads(name, one.contacts) for name, one in each.items())
-    source = _source(found) if hasattr(found, "bearings") else f"{found.case}   {found.title}"
-    return ViewData("ball-loads", "Load of every ball", source, panels, 1)
+    found = _solved(machine)
+    panels = tuple(_loads(name, one.contacts) for name, one in _named(found).items())
+    return ViewData("ball-loads", "Load of every ball", _titles(found), panels, 1)
+
+
+def _solved(machine: MachineData) -> Any:
+    """Return the equilibrium; NotApplicable without one."""
+    if machine.equilibrium is None:
+        raise NotApplicable("this view needs an equilibrium, and none was solved")
+    return machine.equilibrium
+
+
+def _named(found: Any) -> dict[str, Any]:
+    """Return the bearings of an equilibrium.
+
+    One that is alone needs no name in a picture.
+    """
+    return {name if _has_shaft(found) else "": one for name, one in found.each.items()}
+
+
+def _has_shaft(found: Any) -> bool:
+    """Tell whether an equilibrium or modes are of a shaft."""
+    return hasattr(found, "bearings")
+
+
+def _titles(found: Any) -> str:
+    return _source(found) if _has_shaft(found) else f"{found.case}   {found.title}"
+
+
+def bearing(machine: MachineData, options: Options) -> ViewData:
+    """Return a sketch of every bearing with its load.
+
+    It is seen from the side and against the shaft; the inner ring stands where the load moves it, enlarged.
+    """
+    found = _solved(machine)
+    if machine.model is None:
+        raise NotApplicable("this view needs the model, and this equilibrium was read from data: solve its case again")
+    models = machine.model.bearing_models.values()
+    panels, notes = [], ["arrows: load of the inner ring on its raceways, in sum and on every ball or roller"]
+    for (name, one), model in zip(_named(found).items(), models, strict=True):
+        sizes, label = Sizes.of(model), f"{name} " if name else ""
+        moved, factor = enlarged(one.ring_displacement_um, 0.2 * sizes.element)
+        panels += [from_the_side(f"{label}from the side", sizes, one, moved),
+                   against_the_shaft(f"{label}against the shaft", sizes, one, moved)]  # fmt: skip
+        text = "  ".join(
+            f"{axis} {0.0 if abs(um) < 5e-4 else um:.3g}"
+            for axis, um in zip("xyz", one.ring_displacement_um, strict=True)
+        )
+        notes.append(f"{label}inner ring moves {text} um, drawn {factor:g} times as far")
+    return ViewData("bearing", "A bearing under its load", _titles(found), tuple(panels), 2, tuple(notes))
 
 
 def _loads(name: str, contacts: Any) -> Panel:
@@ -151,8 +185,25 @@ def campbell(machine: MachineData, options: Options) -> ViewData:
     )  # fmt: skip
 
 
+def _is_alone(machine: MachineData) -> bool:
+    """Tell whether an equilibrium is of one bearing alone."""
+    return machine.equilibrium is not None and not _has_shaft(machine.equilibrium)
+
+
+def _is_on_shaft(machine: MachineData) -> bool:
+    return not _is_alone(machine)
+
+
 VIEWS = (
-    View("shaft", "Shaft in its bearings: deflection, bending moment", "machine", deflection, view_api=1),
-    View("ball-loads", "Load of every ball without time", "machine", ball_loads, offered=lambda _: False, view_api=1),
-    View("whirl", "Natural frequencies of a machine over speed", "machine", campbell, view_api=1),
+    View(
+        "shaft",
+        "Shaft in its bearings: deflection, bending moment",
+        "machine",
+        deflection,
+        offered=_is_on_shaft,
+        view_api=1,
+    ),
+    View("bearing", "Bearing under its load without time", "machine", bearing, offered=_is_alone, view_api=1),
+    View("ball-loads", "Load of every ball without time", "machine", ball_loads, offered=_is_alone, view_api=1),
+    View("whirl", "Natural frequencies of a machine over speed", "machine", campbell, offered=_is_on_shaft, view_api=1),
 )
