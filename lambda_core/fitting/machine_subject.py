@@ -12,7 +12,14 @@ import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, given_range, varied
 from lambda_core.analysis.band.model_band import bands_of_machine, deviations, effects_in
-from lambda_core.analysis.band.quantities import CONDITIONS, TEMPERATURES, Condition, Measured
+from lambda_core.analysis.band.quantities import (
+    CONDITIONS,
+    STIFFNESSES,
+    TEMPERATURES,
+    Condition,
+    Measured,
+    stiffness_reading,
+)
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import from_si, parse
@@ -46,7 +53,7 @@ _OF_BEARING = {
         f"displacement {axis}": Measured(f"displacement_um.{axis}", "small_length", "um", is_signed=True)
         for axis in "xyz"
     },
-    **{f"stiffness {axis}": Measured(f"stiffness.{axis}", "stiffness", "N/um") for axis in "xyz"},
+    **STIFFNESSES,
 }
 _PLACES = {
     "oil temperature": ("lubricant", "temperature"),
@@ -291,6 +298,8 @@ def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
     """
     from lambda_core.studies.responses import responses_of
 
+    if response in STIFFNESSES:
+        return stiffness_reading(response, point.summary.bearing(bearing).stiffness)
     kind, _, which = response.partition(".")
     if kind in _OTHER:
         return _OTHER[kind](point, bearing, which)
@@ -306,13 +315,7 @@ def _mode(point: MachinePoint, bearing: str, which: str, kind: str = "") -> floa
     return rising[int(which) - 1] if int(which) <= len(rising) else None
 
 
-def _stiffness(point: MachinePoint, bearing: str, axis: str) -> float:
-    index = "xyz".index(axis)
-    return 1e-6 * point.summary.bearing(bearing).stiffness[index][index]
-
-
 _OTHER: Mapping[str, Callable[[Any, str, str], float | None]] = {
     "modes": _mode,
     "bending": lambda point, bearing, which: _mode(point, bearing, which, "bending"),
-    "stiffness": _stiffness,
 }

@@ -177,6 +177,9 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         known = [*vocabulary.conditions, *measured]
         close = nearest(name, known) or known[:_LISTED]
         shown = text if len(text) <= _LONGEST else f"{text[:_BEGIN]}..."
+        if why := vocabulary.why_not(name):
+            problems.append(Problem(where, f'"{shown}": {why}'))
+            return None
         problems.append(Problem(where, f'"{shown}" is not a known column; nearest: {", ".join(close)}'))
         return None
     if condition is not None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from lambda_core.analysis.band.changed import is_of_laws, with_value_of_laws
 from lambda_core.analysis.band.graded import Graded
-from lambda_core.analysis.band.quantities import TEMPERATURES, Condition
+from lambda_core.analysis.band.quantities import STIFFNESS, TEMPERATURES, Condition, stiffness_reading
 from lambda_core.analysis.band.readings import READ, computed_temperature, read_values
 from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.domain.arrays import FloatArray
@@ -146,7 +146,9 @@ class _Point:
         return read_values(solved, [READ[name] for name in names], one=one)
 
 
-ROLLER_QUANTITIES = ("friction torque", "power loss", "cage speed", *(f"displacement {axis}" for axis in "xyz"))
+ROLLER_QUANTITIES = (
+    "friction torque", "power loss", "cage speed", *(f"displacement {axis}" for axis in "xyz"), *STIFFNESS
+)  # fmt: skip
 
 
 def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence[str]) -> FloatArray:
@@ -155,14 +157,17 @@ def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence
     The bearing's model predicts them, and `warm` has its computed temperatures; a quantity that it lacks raises a
     UsageError.
     """
-    from lambda_core.results.roller_quasistatic import roller_quasistatic
+    from lambda_core.results.roller_quasistatic import roller_answer, solve_rollers
 
-    found = roller_quasistatic(model)
+    solved = solve_rollers(model)
+    found = roller_answer(model, solved)
     torque, speed = found.friction_torque_Nmm, abs(model.speeds[0] - model.speeds[1])
     values: dict[str, float] = {}
     if torque is not None:
         values |= {"friction torque": torque, "power loss": 1e-3 * torque * speed}
     values |= {f"displacement {axis}": found.inner_ring_displacement_um[i] for i, axis in enumerate("xyz")}
+    matrix = np.mean([state.stiffness for state in solved.states], axis=0)
+    values |= {name: stiffness_reading(name, matrix.tolist()) for name in STIFFNESS}
     if warm is not None:
         values |= {name: computed_temperature(warm, name) for name in names if name in TEMPERATURES}
     if found.orbit_speed_ratio is not None:

@@ -22,6 +22,7 @@ from lambda_core.analysis.band.quantities import (
     Measured,
     Vocabulary,
     error_quantity,
+    no_measured,
 )
 from lambda_core.analysis.thermal.temperatures import ready_model, ready_rollers
 from lambda_core.domain.arrays import FloatArray
@@ -102,7 +103,7 @@ class BearingSubject:
         self._points = OperatingPoints(self._toml)
         self.name, self.title = self.model.name, self.model.title
         is_computed = case.operation.temperatures == "computed"
-        self.words = vocabulary(CONDITIONS, MEASURED, Case, TEMPERATURES if is_computed else ())
+        self.words = _of_one(MEASURED, Case, TEMPERATURES if is_computed else ())
 
     def varied(self, specification: str) -> Graded:
         """Return the parameter that a text names."""
@@ -139,7 +140,7 @@ class RollerSubject(BearingSubject):
         self.model = replace(self.model, values=(*self.model.values, *rollers.values))
         kept = {name: MEASURED[name] for name in ROLLER_QUANTITIES}
         computed = TEMPERATURES if case.operation.temperatures == "computed" else ()
-        self.words = vocabulary(CONDITIONS, kept, type(case), computed)
+        self.words = _of_one(kept, type(case), computed)
 
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
@@ -156,6 +157,10 @@ class RollerSubject(BearingSubject):
         found = ready_rollers(apply_overrides(self._case, (*changes, *moved)))
         assert found is not None
         return roller_values(*found, names)[np.newaxis]
+
+
+def _of_one(measured: Mapping[str, Measured], root: type[BaseModel], computed: Sequence[str]) -> Vocabulary:
+    return replace(vocabulary(CONDITIONS, measured, root, computed), why_not=no_measured)
 
 
 def vocabulary(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from lambda_core.domain.units import UNITS
@@ -81,6 +81,15 @@ CONDITIONS: dict[str, Condition] = {
 }
 # Temperatures of a case: conditions where it gives them, measured where it computes them.
 TEMPERATURES = ("oil temperature", "inner ring temperature", "outer ring temperature")
+# Diagonal of a bearing's stiffness matrix: what the inner ring moves along or tilts about, and its place there.
+STIFFNESS = {"stiffness x": 0, "stiffness y": 1, "stiffness z": 2, "stiffness tilt y": 3, "stiffness tilt z": 4}
+_FIRST_TILT = 3
+STIFFNESSES: dict[str, Measured] = {
+    name: Measured(name, "stiffness", "N/um")
+    if place < _FIRST_TILT
+    else Measured(name, "angular_stiffness", "N m/mrad")
+    for name, place in STIFFNESS.items()
+}
 MEASURED: dict[str, Measured] = {
     "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
     "power loss": Measured("power_loss_W", "power", "W"),
@@ -90,7 +99,31 @@ MEASURED: dict[str, Measured] = {
     "displacement x": Measured("inner_ring_displacement_um.x", "small_length", "um", is_signed=True),
     "displacement y": Measured("inner_ring_displacement_um.y", "small_length", "um", is_signed=True),
     "displacement z": Measured("inner_ring_displacement_um.z", "small_length", "um", is_signed=True),
+    **STIFFNESSES,
 }
+# Quantities of a shaft, and what a case of one bearing answers.
+_OF_A_SHAFT = ("natural frequency", "bending frequency", "first critical speed", "largest deflection")
+_NO_SHAFT = 'a bearing alone has no shaft that vibrates or bends: name the case of a machine, or measure "stiffness z"'
+
+
+def stiffness_reading(name: str, matrix: Sequence[Sequence[float]]) -> float:
+    """Return a stiffness in the unit of its name.
+
+    The matrix is that of :func:`lambda_core.solver.drivers.stiffness.stiffness_matrix`, SI.
+    """
+    place, one = STIFFNESS[name], STIFFNESSES[name]
+    return float(matrix[place][place]) / UNITS[one.quantity][one.unit]
+
+
+def no_measured(name: str) -> str:
+    """Return why a case of one bearing lacks a quantity."""
+    return _NO_SHAFT if name.startswith(_OF_A_SHAFT) else ""
+
+
+def nothing_known(name: str) -> str:
+    """Return no reason."""
+    del name
+    return ""
 
 
 def no_option(path: str, unit: str) -> Condition | None:
@@ -117,6 +150,8 @@ class Vocabulary:
     option : callable
         Returns the condition of a column that is named by the path of an option, from this and its unit; None where
         there is no such option.
+    why_not : callable
+        Returns why there is no such measured quantity, "" where its name says nothing.
     """
 
     conditions: Mapping[str, Condition]
@@ -124,6 +159,7 @@ class Vocabulary:
     example: str
     most: int = 2000
     option: Callable[[str, str], Condition | None] = no_option
+    why_not: Callable[[str], str] = nothing_known
 
     def condition(self, name: str, unit: str = "") -> Condition | None:
         """Return the operating condition that a column holds."""

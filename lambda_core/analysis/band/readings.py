@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lambda_core.analysis.band.quantities import MEASURED
+from lambda_core.analysis.band.quantities import MEASURED, STIFFNESS, stiffness_reading
 from lambda_core.case.case_io import toml_tables
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
@@ -19,6 +19,7 @@ from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checks.operating_limits import ratings
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.stiffness import stiffness_matrix
 from lambda_core.solver.records import CONTACT_CHANNELS
 
 # Positions of the balls in pitches, equally weighted: half a pitch mirrors the other under a radial load, and two
@@ -95,6 +96,10 @@ def _displacement(axis: int) -> Callable[[Equilibrium], float]:
     return lambda found: 1e6 * float(found.displacement[axis])
 
 
+def _stiffness(name: str) -> Callable[[Equilibrium], float]:
+    return lambda found: stiffness_reading(name, stiffness_matrix(found))
+
+
 _PLACES = {
     "oil temperature": ("lubricant", "temperature"),
     **{f"{ring} ring temperature": ("bearing", "temperatures", f"{ring}_ring") for ring in RINGS},
@@ -125,5 +130,6 @@ READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "rating life": _life,
     "cage speed": lambda found: 30.0 / math.pi * abs(found.orbit),  # of a cage that follows the loaded balls
     **{f"displacement {axis}": _displacement(index) for index, axis in enumerate("xyz")},
+    **{name: _stiffness(name) for name in STIFFNESS},
     **{name: _temperature(name) for name in _PLACES},
 }
