@@ -55,6 +55,9 @@ def init(
         str | None, typer.Option("--speed", metavar="SPEED", help="With --bearing: speed of the inner ring.")
     ] = None,
     oil: Annotated[str | None, typer.Option("--oil", metavar="NAME", help="With --bearing: lubricant.")] = None,
+    temperature: Annotated[
+        str | None, typer.Option("--temperature", metavar="TEMPERATURE", help="With --bearing: lubricant temperature.")
+    ] = None,
     as_machine: Annotated[
         bool,
         typer.Option(
@@ -68,7 +71,8 @@ def init(
 
     from lambda_core import api
 
-    given = {"loads.radial": radial, "loads.axial": axial, "operation.speed": speed, "lubricant.name": oil}
+    given = {"loads.radial": radial, "loads.axial": axial, "operation.speed": speed}
+    given |= {"lubricant.name": oil, "lubricant.temperature": temperature}
     changes = [f"{path}={value}" for path, value in given.items() if value is not None]
     if any(mark in name for mark in "/\\"):
         raise api.UsageError(f'"{name}" is a path: give a name alone, and the file with --out "{name}"')

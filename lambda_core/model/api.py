@@ -221,7 +221,9 @@ def init_case(
     target = Path(path) if path is not None else Path(f"{name}.toml")
     changes = listed(changes, "changes")
     if changes and ((bearing is None and template is None) or template == GEARED_SHAFT):
-        raise UsageError("load, speed and oil of a new case go with --bearing or a template of one bearing")
+        raise UsageError(
+            "load, speed, oil and temperature of a new case need a bearing: add --bearing or a template of one bearing"
+        )
     if bearing is None and template is None:
         begin = start or "6319-cp10-1500"
         return (

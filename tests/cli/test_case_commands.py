@@ -256,15 +256,17 @@ def test_init_starts_from_a_bearing_of_the_catalogue(
 def test_init_takes_load_speed_and_oil_on_its_line(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     given = ("--radial", "3 kN", "--axial", "400 N", "--speed", "2900 rpm", "--oil", "FVA3A")
+    given += ("--temperature", "75 degC")
     assert call("init", "fan", "--bearing", "SKF 6208", *given)[0] == 0
     model = api.check("fan.toml")
     assert isinstance(model, api.BearingModel)
     assert model.oil.name == "FVA3A"
+    assert 'temperature = "75 degC"' in Path("fan.toml").read_text(encoding="utf-8")
     assert "radial 3 kN   axial 400 N   inner ring 2900 rpm" in call("check", "fan.toml")[1]
     assert "# inner ring; the outer ring stands still" in Path("fan.toml").read_text(encoding="utf-8")
     code, _, err = call("init", "box", "--template", "geared-shaft", "--speed", "10 rpm")
     assert code == 2
-    assert "go with --bearing" in err
+    assert "add --bearing" in err
 
 
 @pytest.mark.parametrize("bearing", ["SKF 6208", "SKF NU 208 ECP"])
