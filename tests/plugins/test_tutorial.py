@@ -69,7 +69,7 @@ def followed(tmp_path_factory: pytest.TempPathFactory, warm: Warm) -> tuple[Path
 
 
 def test_there_is_something_to_follow() -> None:
-    assert {Path(name).name for name, _ in FILES} == {"pyproject.toml", "hyperbolic_limit.py"}
+    assert {Path(name).name for name, _ in FILES} == {"pyproject.toml", "hyperbolic_limit.py", "capped.py"}
     assert len(steps()) >= 8
     assert len(TEST_CODE) == 1
 
