@@ -137,7 +137,7 @@ def _sorted_out(words: list[str]) -> tuple[list[str], str]:
     if missing:
         kind = "result" if "." in missing[0] or "/" in missing[0] or not sources else "view"
         if kind == "result":
-            raise api.UsageError(f"{missing[0]} does not exist")
+            raise api.UsageError(f"{missing[0]} does not exist: name a file that lambda-bearing run has written")
         from lambda_core.domain.errors import unknown_name
 
         raise api.UsageError(unknown_name("view", missing[0], known))

@@ -40,7 +40,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
     Any fault of the file, whenever it shows, raises a ResultError.
     """
     if not path.is_file():
-        what = "does not exist"
+        what = "does not exist: name a file that lambda-bearing run has written"
         if path.exists():
             what = "is a folder, not a result file" if path.is_dir() else "is not a regular file"
         raise ResultError(f"{path} {what}")

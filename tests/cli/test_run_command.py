@@ -156,7 +156,7 @@ def test_results_are_numbered_and_never_overwritten(capsys: pytest.CaptureFixtur
         (["run", CASE, "--out", "/proc/r.h5"], 2, "cannot write /proc/r.h5"),
         (["run", CASE, "--out", "."], 2, "is a folder"),
         (["run", CASE, "--progress", "dots"], 2, "dots"),
-        (["show", "no.h5"], 2, "no.h5 does not exist"),
+        (["show", "no.h5"], 2, "no.h5 does not exist: name a file that lambda-bearing run has written"),
         (["resume", "no.h5"], 2, "no.h5 does not exist"),
         (["quasistatic", CASE, "--set", "bearing.designation=6391"], 3, "6391"),
     ],

@@ -82,7 +82,7 @@ def test_view_lists_views_with_their_options(call: Call) -> None:
     ("words", "message"),
     [
         (["{run}", "fiml"], '"fiml" is not a known view; nearest: film'),
-        (["no.h5", "film"], "no.h5 does not exist"),
+        (["no.h5", "film"], "no.h5 does not exist: name a file that"),
         (["{run}", "film", "pressure"], "give one view"),
         (["{run}", "study-map"], "looks at a study, this is one result"),
         (["{run}", "film", "--set", "x=1"], '"x" is not a known option'),
