@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,17 +23,16 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.loading import CARRYING
-from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import estimate, finite
 from lambda_core.results.record import Record
+from lambda_core.runs.beginning import begin
 from lambda_core.runs.cvode import ENERGY, integrate
-from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.drivers.dynamics import MotionEngine, MotionStart, bearing_start
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.drivers.readings import Channels, MachineSamples
+from lambda_core.solver.drivers.dynamics import MotionEngine, MotionStart
+from lambda_core.solver.drivers.readings import MachineSamples
 
 if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
 
 _FINER = 1e-2  # tolerance of CVODE over ours where a trajectory is compared with a much finer one
@@ -107,24 +106,12 @@ def _line(name: str, row: Integration) -> str:
     return f"  {name:<22}{row.power_W:.4f}{spread} W  {row.calls} calls  {row.jacobians} Jacobians"
 
 
-def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:
-    """Return the model with a kinematic cage.
-
-    It is centred, at the balls' mean orbital speed.
-    """
-    axial = float(np.mean(L.elements_in(start.context.bundle, start.state)["x"]))
-    dofs = dict.fromkeys(model.cage_body.dofs, DofState("locked"))
-    dofs["x"] = DofState("prescribed", TimeFunction.constant(axial))
-    dofs["spin"] = DofState("prescribed", TimeFunction.constant(start.orbit))
-    return replace(model, cage_body=replace(model.cage_body, dofs=dofs))
-
-
 @dataclass(frozen=True)
-class _Begun:
+class _Checked:
     """A bearing or a machine at its start."""
 
     name: str
-    motion: MotionStart[Any, Any]
+    motion: MotionStart
     duration: float | None  # that the case asks for [s]
     orbit: float  # speed of the slowest cage [rad/s]
 
@@ -156,51 +143,31 @@ def cross_check(
     SolverError
         When either integrator cannot go on, the rings stand still, or a free cage makes less than three turns.
     """
-    begun = (_bearing if isinstance(model, BearingModel) else _machine)(model, free_cage, announce)  # type: ignore[arg-type]
+    begun = _started(model, free_cage, announce)
     duration = begun.duration or _TURNS[free_cage] * begun.turn
     if free_cage:
         return _means(begun, int(duration / begun.turn + 1e-9))
     return _trajectories(begun, duration)
 
 
-def _bearing(model: BearingModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a bearing at its start.
-
-    Its cage is guided unless it is free.
-    """
-    start = solve(model, announce=announce)
-    _check_turning(start.relative_speed)
-    orbit = abs(start.orbit)
-    if not free_cage:
-        model = with_locked_cage(model, start)
-        start = solve(model, announce=announce)
-    return _Begun(model.name, bearing_start(start, model), model.solver.duration, orbit)
-
-
-def _machine(machine: MachineModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Begun:
-    """Return a machine at its start.
+def _started(model: BearingModel | MachineModel, free_cage: bool, announce: Callable[[str], None] | None) -> _Checked:
+    """Return a model at its start.
 
     Its cages are guided unless they are free.
     """
-    from lambda_core.solver.drivers.machine_motion import machine_start
-
-    _check_turning(machine.speed)
-    start = machine_start(machine, announce, leads_cages=not free_cage)
-    orbit = min(abs(found.orbit) for found in start.equilibria)
-    return _Begun(machine.name, start.motion, machine.solver.duration, orbit)
-
-
-def _check_turning(speed: float) -> None:
-    if speed == 0.0:
+    begun = begin(model, announce, leads_cages=not free_cage)
+    if all(found.relative_speed == 0.0 for found in begun.equilibria):
         raise SolverError("the rings stand still, so there is no power to compare: give operation.speed")
+    orbit = min(abs(found.orbit) for found in begun.equilibria)
+    return _Checked(model.name, begun.motion, model.solver.duration, orbit)
 
 
-def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
+def _trajectories(begun: _Checked, duration: float) -> CrossCheck:
     tolerance, context = begun.motion.tolerance, begun.motion.context
     engine = MotionEngine(replace(begun.motion, sample_interval=duration / _OUTPUTS))
     _advanced(engine, duration)
     times, states = engine.buffered()
-    gripped = np.concatenate([_gripped(load) for load in _inner_loads(engine.samples())], axis=1)
+    gripped = np.concatenate([_gripped(load) for load in _inner_loads(engine.all_samples())], axis=1)
     lost, end = engine.spent()[0], engine.time
     grid = np.append(times[times < end], end)
     same, fine = (integrate(begun.motion, grid, tolerance * share) for share in (1.0, _FINER))
@@ -234,7 +201,7 @@ def _trajectories(begun: _Begun, duration: float) -> CrossCheck:
     )
 
 
-def _power_bound(motion: MotionStart[Any, Any], end: float, lost: float, reference: float) -> tuple[float, bool]:
+def _power_bound(motion: MotionStart, end: float, lost: float, reference: float) -> tuple[float, bool]:
     """Return the allowed share of the energy difference.
 
     Our energy may differ from that of the reference [J] by it; also return whether both tend to one limit.
@@ -248,13 +215,12 @@ def _power_bound(motion: MotionStart[Any, Any], end: float, lost: float, referen
     return float(both + abs(lost - energy) / abs(reference)), abs(energy / reference - 1.0) < both
 
 
-def _inner_loads(samples: Channels | MachineSamples) -> list[FloatArray]:
+def _inner_loads(samples: MachineSamples) -> list[FloatArray]:
     """Return the loads of the inner contacts [N].
 
     They belong to every bearing; the array has shape (time, ball).
     """
-    each = samples.bearings if isinstance(samples, MachineSamples) else [samples]
-    return [channels["load"][:, :, RINGS.index("inner")] for channels in each]
+    return [channels["load"][:, :, RINGS.index("inner")] for channels in samples.bearings]
 
 
 def _gripped(load: FloatArray) -> NDArray[np.bool_]:
@@ -275,7 +241,7 @@ def _distance(apart: FloatArray, chosen: NDArray[np.bool_]) -> FloatArray:
     return total
 
 
-def _means(begun: _Begun, turns: int) -> CrossCheck:
+def _means(begun: _Checked, turns: int) -> CrossCheck:
     turn, tolerance = begun.turn, begun.motion.tolerance
     if turns < 3:
         raise SolverError(
@@ -311,13 +277,13 @@ def _means(begun: _Begun, turns: int) -> CrossCheck:
     )
 
 
-def _advanced(engine: MotionEngine[Any, Any], until: float) -> None:
+def _advanced(engine: MotionEngine, until: float) -> None:
     done = engine.advance(until)
     if not done.ok:
         raise SolverError(done.message)
 
 
-def _ours(engine: MotionEngine[Any, Any], power: float, half_width: float) -> Integration:
+def _ours(engine: MotionEngine, power: float, half_width: float) -> Integration:
     counters = engine.statistics()
     return Integration(
         power_W=power,

@@ -8,7 +8,6 @@ iteration and linear algebra are CVODE's (Hindmarsh et al. 2005, ACM Trans. Math
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -55,7 +54,7 @@ class CvodeRun:
 
 
 def integrate(
-    begin: MotionStart[Any, Any],
+    begin: MotionStart,
     times: FloatArray,
     tolerance: float,
     *,

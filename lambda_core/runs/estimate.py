@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from pydantic import Field
 
-from lambda_core.analysis.rating.engineering import rating_of
-from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
-from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
-from lambda_core.discovery.api import registry
+from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
+from lambda_core.analysis.rotor.machine_modes import MachineModes
 from lambda_core.model.bearing_model import BearingModel, Solver
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.answer import Answer
 from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
-from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
-from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
+from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.runs.beginning import begin
+from lambda_core.solver.drivers.dynamics import MotionEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium
 
 # Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.
 _TRIAL = 0.05
@@ -69,25 +67,15 @@ def estimate(model: BearingModel | MachineModel, announce: Callable[[str], None]
     SolverError
         When there is no equilibrium.
     """
-    equilibria: Sequence[Equilibrium]
-    engine: BearingEngine | MachineEngine
-    equilibrium: QuasiStatic | MachineEquilibrium
-    modes: MachineModes | None
-    if isinstance(model, BearingModel):
-        alone = solve(model, announce=announce)
-        equilibria, engine = [alone], BearingEngine(model, announce, alone)
-        equilibrium, modes = quasistatic_of(alone, rating_of(alone, registry().methods)), None
-    else:
-        start = machine_start(model, announce)
-        equilibria, engine = start.equilibria, MachineEngine(start, announce)
-        equilibrium, modes = equilibrium_of(model, start.state, equilibria), modes_of(model, start.state)
-    each = list(zip(model.bearing_models.values(), equilibria, strict=True))
+    begun = begin(model, announce)
+    engine = MotionEngine(begun.motion, announce)
+    each = list(zip(model.bearing_models.values(), begun.equilibria, strict=True))
     turn = max(_cage_turn(*one) for one in each)
     times = [_simulated_time(*one) for one in each]
     simulated = max(times, key=lambda time: math.inf if time is None else time)
     trial = None if simulated is None else _trial(engine, turn, simulated)
     return Estimate(
-        equilibrium=equilibrium, modes=modes, simulated_s=simulated,
+        equilibrium=begun.answer(), modes=begun.modes(), simulated_s=simulated,
         processor_s=None if trial is None else trial.seconds, basis=_basis(model.solver, simulated, turn, trial),
     )  # fmt: skip
 
@@ -130,7 +118,7 @@ class _Trial:
     seconds: float
 
 
-def _trial(engine: BearingEngine | MachineEngine, turn: float, simulated: float) -> _Trial | None:
+def _trial(engine: MotionEngine, turn: float, simulated: float) -> _Trial | None:
     """Integrate the first moments of a run.
 
     None where these cannot be computed.

@@ -6,42 +6,29 @@ It places the result and checks what a continued run must have in common.
 from __future__ import annotations
 
 import dataclasses
-import math
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.analysis.rating.engineering import mounted_rating, rating_of
-from lambda_core.discovery.api import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
-from lambda_core.domain.number_text import counted
 from lambda_core.domain.units import show
 from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.checks.describe import headline
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.settings.resolve_solver import MOST_TIME
 from lambda_core.results.opening import ResultError
-from lambda_core.results.provenance import (
-    BearingOrigin,
-    MachineOrigin,
-    Provenance,
-    differences,
-    machine_data,
-    model_data,
-)
-from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.provenance import Provenance, differences, machine_data, model_data
 from lambda_core.results.reader import Result
 from lambda_core.results.samples import ALONE
-from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
+from lambda_core.runs.beginning import begin
+from lambda_core.runs.law_blame import BlamingEngine
 from lambda_core.runs.loop import resume, run
 from lambda_core.runs.progress import Report
-from lambda_core.runs.run_engine import OneBearing, RunEngine, SeveralBearings
+from lambda_core.runs.run_engine import BearingsInMotion, RunEngine
 from lambda_core.runs.session import Attachments
 from lambda_core.solver.code_files import physics_key
-from lambda_core.solver.drivers.equilibrium import solve
 
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.live import Live
@@ -137,12 +124,10 @@ def _check_same(result: Result, model: Runnable) -> None:
 def _check_end(model: Runnable) -> None:
     """Refuse a run without an end.
 
-    It is one of a machine; the end is missing or cannot be reached.
+    The end is missing or cannot be reached.
     """
-    if not isinstance(model, MachineModel):
-        return
     asked = model.solver.duration
-    end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
+    end = asked or max(one.solver.max_duration for one in model.bearing_models.values())
     if not end:
         raise UsageError("nothing turns, so the run needs a duration: --duration, or solver.duration in the file")
     if end > MOST_TIME:
@@ -171,15 +156,18 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
 
     Also return what is computed from its samples.
     """
-    found = _machine(model, announce) if isinstance(model, MachineModel) else _one(model, announce)
-    engine, provenance, live = found
+    live, begun = _live(model, announce), begin(model, announce)
+    if announce is not None:
+        announce(begun.sentence())
+    engine = BlamingEngine(begun.motion, announce)
+    provenance = begun.provenance(engine)
     attached = Attachments.of(provenance, live)
     shared = {"core": physics_key(), "code": code(), **(live.keys() if live is not None else {})}
     origins = {
         name: dataclasses.replace(origin, kernel_keys={**origin.kernel_keys, **attached.watches[name].keys(), **shared})
         for name, origin in provenance.bearings.items()
     }
-    return engine, dataclasses.replace(provenance, bearings=origins), attached
+    return BearingsInMotion(engine), dataclasses.replace(provenance, bearings=origins), attached
 
 
 def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
@@ -206,67 +194,6 @@ def _live(model: Runnable, announce: Announce | None) -> Live | None:
     from lambda_core.analysis.electric.live import Live
 
     return Live(model, announce)
-
-
-def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
-    """Prepare the run of one bearing alone."""
-    live = _live(model, announce)
-    with naming_laws(model):
-        start = solve(model, announce=announce)
-    if announce is not None:
-        announce(_start_line(quasistatic_of(start), model.elements))
-    engine = BlamingBearingEngine(model, announce, start)
-    rating = rating_of(start, registry().methods)
-    return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live
-
-
-def _machine(model: MachineModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
-    """Prepare the run of a machine."""
-    from lambda_core.analysis.rotor.bearing_alone import alone_under_load
-    from lambda_core.runs.machine_law_blame import BlamingMachineEngine
-    from lambda_core.solver.drivers.machine_motion import machine_start
-
-    live = _live(model, announce)
-    with naming_laws(*model.bearing_models.values()):
-        engine = BlamingMachineEngine(machine_start(model, announce), announce)
-    start = engine.start
-    if announce is not None:
-        announce(
-            f"equilibrium of {counted(len(engine.bearings), 'bearing')} and "
-            f"{counted(start.shaft.positions.size, 'lump')} of the shaft: "
-            f"{engine.states} states"
-        )
-    bearings = {}
-    for i, one in enumerate(model.bearings):
-        rating = mounted_rating(model, start.state, i, start.equilibria[i])
-        keys = engine.bearings[i].context.kernels.keys()
-        lines = headline(alone_under_load(model, start.state, i))
-        bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(lines))
-    names = " + ".join(one.model.title.split(" (")[0] for one in model.bearings)
-    title = f"{model.name}: {names}"
-    origin = MachineOrigin(
-        headline=f"{title}\n{30.0 / math.pi * model.speed:.5g} 1/min   {model.body.total_mass:.4g} kg on the shaft",
-        model=machine_data(model),
-        numbers={"drive_torque": start.drive_torque},
-        labels={
-            "lump": start.shaft.positions,
-            "connection": [link.name for link in model.links],
-            **{_DIMS[what]: names for what, names in model.names.items()},
-        },
-        assumptions=model.assumptions,
-        warnings=model.warnings,
-    )
-    return SeveralBearings(engine), Provenance(model.name, title, model.case_toml, bearings, origin), live
-
-
-_DIMS = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions
-
-
-def _start_line(start: QuasiStatic, elements: str = "balls") -> str:
-    return (
-        f"equilibrium: {start.loaded_balls} {elements} loaded, "
-        f"Q_max {start.max_load_N / 1e3:.2f} kN ({start.max_load_ring} ring), p_max {start.max_pressure_GPa:.2f} GPa"
-    )
 
 
 def _moved(model: BearingModel, before: Mapping[str, Any]) -> list[str]:

@@ -23,10 +23,10 @@ from lambda_core.laws.runaway import FAR
 from lambda_core.laws.state import ROLE
 from lambda_core.model.laws.law_packages import foreign_laws
 from lambda_core.model.laws.state_channels import states_of
-from lambda_core.solver.drivers.dynamics import BearingEngine, MotionEngine
+from lambda_core.solver.drivers.dynamics import MotionEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
-from lambda_core.solver.drivers.readings import Channels, ReadBearing, Sampled, Summed_co, Sums
+from lambda_core.solver.drivers.readings import ReadBearing
 from lambda_core.solver.drivers.solver_context import SolverContext
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def naming_laws(*models: BearingModel) -> Iterator[None]:
         raise SolverError(f"{error}; {took_part(others)}") from None
 
 
-class BlamingEngine(MotionEngine[Sampled, Summed_co]):
+class BlamingEngine(MotionEngine):
     """Dynamics of bearings that name failing laws.
 
     When they fail, the laws of plugins are looked at first.
@@ -129,13 +129,6 @@ class BlamingEngine(MotionEngine[Sampled, Summed_co]):
                         check_choice(law.model, context.parameters(element, role), samples=_SAMPLES)
                     except PluginError as error:
                         yield str(error)
-
-
-class BlamingBearingEngine(BlamingEngine[Channels, Sums], BearingEngine):
-    """Dynamics of one bearing that name failing laws.
-
-    When they fail, the laws of plugins are looked at first.
-    """
 
 
 def _of(one: ReadBearing, sentence: str) -> str:

@@ -14,9 +14,8 @@ from lambda_core.runs.machine_channels import MACHINE_CHANNELS
 
 if TYPE_CHECKING:
     from lambda_core.domain.channels import Channel
-    from lambda_core.solver.drivers.dynamics import BearingEngine
+    from lambda_core.solver.drivers.dynamics import MotionEngine
     from lambda_core.solver.drivers.engine import Advance
-    from lambda_core.solver.drivers.machine_motion import MachineEngine
 
 
 class RunEngine(Protocol):
@@ -74,43 +73,16 @@ class RunEngine(Protocol):
         """Continue from what `state` returned."""
 
 
-class OneBearing:
-    """The dynamics of one bearing alone, for the run loop."""
+class BearingsInMotion:
+    """Dynamics of one or more bearings for the run loop."""
 
-    def __init__(self, engine: BearingEngine) -> None:
+    def __init__(self, engine: MotionEngine) -> None:
         self._engine = engine
-        self.channels = RunChannels((), {ALONE: without_time(engine.channels)})
-        self.advance, self.statistics, self.modes = engine.advance, engine.statistics, engine.modes
-        self.state, self.restore = engine.state, engine.restore
-
-    @property
-    def time(self) -> float:
-        """Start of the next step [s]."""
-        return self._engine.time
-
-    @property
-    def sample_interval(self) -> float:
-        """Time between samples [s]."""
-        return self._engine.sample_interval
-
-    def samples(self) -> Samples:
-        """Return and clear the buffered samples."""
-        found = self._engine.samples()
-        return Samples(found[TIME], {}, {ALONE: found})
-
-    def integrals(self) -> dict[str, dict[str, float]]:
-        """Return the running integrals."""
-        return {ALONE: self._engine.integrals()}
-
-
-class SeveralBearings:
-    """The dynamics of a machine, for the run loop."""
-
-    def __init__(self, engine: MachineEngine) -> None:
-        self._engine = engine
-        self._names = [one.name for one in engine.bearings]
-        each = {one.name: without_time(result_channels(one.context.model)) for one in engine.bearings}
-        self.channels = RunChannels(MACHINE_CHANNELS, each)
+        self._names = [one.name or ALONE for one in engine.bearings]
+        models = [one.context.model for one in engine.bearings]
+        each = {n: without_time(result_channels(model)) for n, model in zip(self._names, models, strict=True)}
+        is_alone = not engine.bearings[0].name
+        self.channels = RunChannels(() if is_alone else MACHINE_CHANNELS, each)
         self.advance, self.statistics, self.modes = engine.advance, engine.statistics, engine.modes
         self.state, self.restore, self.sample_interval = engine.state, engine.restore, engine.sample_interval
 
@@ -121,12 +93,13 @@ class SeveralBearings:
 
     def samples(self) -> Samples:
         """Return and clear the buffered samples."""
-        found = self._engine.samples()
-        return Samples(found.machine[TIME], found.machine, dict(zip(self._names, found.bearings, strict=True)))
+        found = self._engine.all_samples()
+        time = (found.machine or found.bearings[0])[TIME]
+        return Samples(time, found.machine, dict(zip(self._names, found.bearings, strict=True)))
 
     def integrals(self) -> dict[str, dict[str, float]]:
         """Return the running integrals of every bearing by its name."""
-        return dict(zip(self._names, self._engine.integrals(), strict=True))
+        return dict(zip(self._names, self._engine.all_integrals(), strict=True))
 
 
 def without_time(channels: tuple[Channel, ...]) -> tuple[Channel, ...]:

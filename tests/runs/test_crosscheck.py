@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.runs.crosscheck import with_locked_cage
+from lambda_core.runs.beginning import with_locked_cage
 from lambda_core.runs.cvode import integrate
 from lambda_core.solver.drivers.dynamics import bearing_start
 from lambda_core.solver.drivers.equilibrium import solve

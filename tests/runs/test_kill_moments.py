@@ -31,7 +31,7 @@ from lambda_core.results.run_status import Status
 from lambda_core.results.writer import ResultWriter
 from lambda_core.runs import loop, session
 from lambda_core.runs.launch import relaunch
-from lambda_core.runs.run_engine import OneBearing, SeveralBearings
+from lambda_core.runs.run_engine import BearingsInMotion
 
 if TYPE_CHECKING:
     from warm import Warm
@@ -181,8 +181,9 @@ def test_a_run_killed_at_any_moment_goes_on_as_the_undisturbed_one(
     kind: Kind, undisturbed: Content, without_modes: Callable[[], None], tmp_path: Path
 ) -> None:
     model = kind.model()
-    adapter = SeveralBearings if isinstance(model, MachineModel) else OneBearing
-    with copied(tmp_path / "run.h5", (*WRITES, (adapter, "integrals"), (session.Session, "_asks_for_modes"))) as copies:
+    with copied(
+        tmp_path / "run.h5", (*WRITES, (BearingsInMotion, "integrals"), (session.Session, "_asks_for_modes"))
+    ) as copies:
         api.run(model, out=tmp_path / "run.h5")
     assert {moment.split(" ", 1)[1] for moment in copies} > {"after save", "after _put_status"}
     assert len(copies) > 12

@@ -260,3 +260,14 @@ def test_a_braked_ring_that_a_torque_drives(tmp_path: Path) -> None:
     assert found.input_torque_Nmm is None
     assert "input torque" not in found.text()
     assert abs(found.energy_residual) < 1e-3
+
+
+def test_a_bearing_at_rest_without_an_end_is_not_run(tmp_path: Path) -> None:
+    """Refuse a model that was resolved for an equilibrium alone.
+
+    It was run into a finished result without samples.
+    """
+    model = api.check("6208-axial-1300", ["operation.speed=0 rpm"], is_static=True)
+    with pytest.raises(api.UsageError, match="nothing turns, so the run needs a duration"):
+        api.run(model, out=tmp_path / "rest.h5")
+    assert not list(tmp_path.iterdir())

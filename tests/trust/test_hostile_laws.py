@@ -23,10 +23,10 @@ from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
-from lambda_core.runs.law_blame import BlamingBearingEngine, naming_laws
-from lambda_core.runs.machine_law_blame import BlamingMachineEngine
+from lambda_core.runs.law_blame import BlamingEngine, naming_laws
+from lambda_core.solver.drivers.dynamics import MotionEngine, bearing_start
 from lambda_core.solver.drivers.engine import Advance
-from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
+from lambda_core.solver.drivers.machine_motion import machine_start
 
 LAWS = """
 import math
@@ -208,13 +208,12 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
 
     The program first examines the shear stress at the state where the integration stopped.
     """
-    from lambda_core.solver.drivers.dynamics import BearingEngine
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = api.check(CASE, ["models.traction=sound"])
-    engine = BlamingBearingEngine(model, None, solve(model))
+    engine = BlamingEngine(bearing_start(solve(model), model))
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
-    monkeypatch.setattr(BearingEngine, "advance", lambda *_: stuck)
+    monkeypatch.setattr(MotionEngine, "advance", lambda *_: stuck)
     assert "laws of others took part: traction/sound (hostile.py " in engine.advance(1.0).message
 
     def drives(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
@@ -236,9 +235,9 @@ def test_a4_a_failure_of_a_machine_names_law_and_bearing(monkeypatch: pytest.Mon
     As for one bearing, with the name of the bearing whose contacts are driven.
     """
     machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
-    engine = BlamingMachineEngine(machine_start(machine))
+    engine = BlamingEngine(machine_start(machine).motion)
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
-    monkeypatch.setattr(MachineEngine, "advance", lambda *_: stuck)
+    monkeypatch.setattr(MotionEngine, "advance", lambda *_: stuck)
     assert "laws of others took part: traction/sound (hostile.py " in engine.advance(1.0).message
 
     def drives(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:

@@ -16,7 +16,7 @@ from lambda_core.laws.state import State, state_fault
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.runs import law_blame
-from lambda_core.runs.machine_law_blame import BlamingMachineEngine
+from lambda_core.runs.law_blame import BlamingEngine
 from lambda_core.solver.drivers.machine_motion import machine_start
 
 LAWS = """
@@ -113,7 +113,7 @@ def test_a_machine_ends_with_the_bearing_whose_state_ran_away(monkeypatch: pytes
     """
     monkeypatch.setattr(law_blame, "FAR", 100.0)
     machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
-    found = BlamingMachineEngine(machine_start(machine)).advance(3e-3)
+    found = BlamingEngine(machine_start(machine).motion).advance(3e-3)
     assert not found.ok
     assert found.message.startswith("left: contact_state/feeding (states.py "), found.message
     assert "its state heat runs away" in found.message

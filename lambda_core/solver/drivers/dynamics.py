@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Generic
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +34,9 @@ from lambda_core.solver.drivers.observation import Scratch
 from lambda_core.solver.drivers.readings import (
     BearingReadings,
     Channels,
+    MachineSamples,
     ReadBearing,
     Readings,
-    Sampled,
-    Summed_co,
     Sums,
 )
 from lambda_core.solver.drivers.solver_context import SolverContext
@@ -61,7 +60,7 @@ _INPUTS = ("bodies", "par", "tie_stiffness", "terms", "table")  # tables that sa
 
 
 @dataclass(frozen=True)
-class MotionStart(Generic[Sampled, Summed_co]):
+class MotionStart:
     """Start of a motion.
 
     How it is integrated and read.
@@ -89,7 +88,7 @@ class MotionStart(Generic[Sampled, Summed_co]):
 
     context: SolverContext
     state: FloatArray
-    readings: Readings[Sampled, Summed_co]
+    readings: Readings
     tolerance: float
     sample_interval: float
     longest_step: float
@@ -98,7 +97,7 @@ class MotionStart(Generic[Sampled, Summed_co]):
     given: Any = field(default_factory=lambda: np.zeros(0, R.TERM))
 
 
-class MotionEngine(Generic[Sampled, Summed_co]):
+class MotionEngine:
     """The dynamics of an assembly of one or more bearings.
 
     The step sequence does not depend on when `advance` is called or what is sampled, so a run continued from `state` is
@@ -122,9 +121,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         One row for each of the signals from outside, which may be written to between two calls of :meth:`advance`.
     """
 
-    def __init__(
-        self, start: MotionStart[Sampled, Summed_co], announce: Announce = None, *, capacity: int = CAPACITY
-    ) -> None:
+    def __init__(self, start: MotionStart, announce: Announce = None, *, capacity: int = CAPACITY) -> None:
         self._core, self.context, self._readings = core(announce), start.context, start.readings
         self.sample_interval, self.given, self._modes_until = start.sample_interval, start.given, start.modes_until
         self._memory = make_memory(
@@ -137,7 +134,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         control["shortest_step"], control["sample_interval"] = SMALLEST_STEP, self.sample_interval
         count["stale"] = 1
         self._handle = self.context.handle(self._memory)
-        self._drained: list[Sampled] = []
+        self._drained: list[MachineSamples] = []
         self._readings.begin(self._memory.y, self.time)
         self._start_energy = self._energy()
 
@@ -202,8 +199,8 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         finally:
             self._memory.control["stop"] = math.inf
 
-    def samples(self) -> Sampled:
-        """Return and clear the buffered samples."""
+    def all_samples(self) -> MachineSamples:
+        """Return and clear the buffered samples of all bearings."""
         self._drain()
         blocks, self._drained = self._drained, []
         return self._readings.joined(blocks)
@@ -264,8 +261,11 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         )  # fmt: skip
         return float(extra[0, 0])  # a records.TOTALS
 
-    def integrals(self) -> Summed_co:
-        """Return the running integrals since the start, see :meth:`BearingReadings.integrals`."""
+    def all_integrals(self) -> list[Sums]:
+        """Return the running integrals of every bearing.
+
+        They count from the start, see :meth:`BearingReadings.integrals`.
+        """
         if self._readings.adds_up_samples:
             self._drain()
         return self._readings.integrals(self._memory.integrals, self._memory.y, self._energy() - self._start_energy)
@@ -362,7 +362,7 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         }  # fmt: skip
 
 
-class BearingEngine(MotionEngine[Channels, Sums]):
+class BearingEngine(MotionEngine):
     """The dynamics of one bearing, started from its quasi-static equilibrium.
 
     Parameters
@@ -408,6 +408,14 @@ class BearingEngine(MotionEngine[Channels, Sums]):
         """Hash of everything each kernel reaches."""
         return self.context.kernels.keys()
 
+    def samples(self) -> Channels:
+        """Return and clear the buffered samples."""
+        return self.all_samples().bearings[0]
+
+    def integrals(self) -> Sums:
+        """Return the running integrals since the start."""
+        return self.all_integrals()[0]
+
     def now(self) -> Channels:
         """Return every channel at `time`."""
         return self.channels_now()
@@ -437,9 +445,7 @@ class BearingEngine(MotionEngine[Channels, Sums]):
         }
 
 
-def bearing_start(
-    equilibrium: Equilibrium, model: BearingModel, given: Sequence[str] = ()
-) -> MotionStart[Channels, Sums]:
+def bearing_start(equilibrium: Equilibrium, model: BearingModel, given: Sequence[str] = ()) -> MotionStart:
     """Return the start of a bearing alone.
 
     Parameters

@@ -58,7 +58,7 @@ class MachineStart:
     shaft: LumpedShaft
     state: MachineState
     equilibria: tuple[Equilibrium, ...]
-    motion: MotionStart[MachineSamples, list[Sums]]
+    motion: MotionStart
     readings: MachineReadings
     given: MachineInputs | None = None
 
@@ -152,7 +152,7 @@ def _begun(
     return MachineStart(machine, shaft, state, equilibria, motion, readings, given)
 
 
-class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
+class MachineEngine(MotionEngine):
     """The dynamics of a machine, started from its quasi-static equilibrium.
 
     Parameters
@@ -167,6 +167,14 @@ class MachineEngine(MotionEngine[MachineSamples, list[Sums]]):
     def __init__(self, start: MachineStart, announce: Announce = None, *, capacity: int = CAPACITY) -> None:
         super().__init__(start.motion, announce, capacity=capacity)
         self.start = start
+
+    def samples(self) -> MachineSamples:
+        """Return and clear the buffered samples."""
+        return self.all_samples()
+
+    def integrals(self) -> list[Sums]:
+        """Return the running integrals of every bearing."""
+        return self.all_integrals()
 
     def now(self) -> MachineSamples:
         """Return every channel at `time`.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 import numpy as np
 
@@ -29,8 +29,6 @@ from lambda_core.solver.drivers.tables import running
 
 Channels = dict[str, FloatArray]
 Sums = dict[str, float]
-Sampled = TypeVar("Sampled")
-Summed_co = TypeVar("Summed_co", covariant=True)
 _SHARED = ("pocket", "land", "drag", "bending")  # losses that only samples part by bearing
 
 
@@ -53,7 +51,19 @@ class ReadBearing:
     span: BearingSpan
 
 
-class Readings(Protocol[Sampled, Summed_co]):
+@dataclass(frozen=True)
+class MachineSamples:
+    """Samples of a motion.
+
+    It has those of the machine, none of a bearing that is alone, and those of every bearing as a run of it alone has
+    them.
+    """
+
+    machine: Channels
+    bearings: list[Channels]
+
+
+class Readings(Protocol):
     """Readings of a motion's states."""
 
     @property
@@ -67,13 +77,13 @@ class Readings(Protocol[Sampled, Summed_co]):
     def begin(self, y: FloatArray, time: float) -> None:
         """Take a state as zero of angles."""
 
-    def sampled(self, times: FloatArray, states: FloatArray) -> Sampled:
+    def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
         """Return what is read at samples.
 
         They follow those of the last call.
         """
 
-    def joined(self, blocks: list[Sampled]) -> Sampled:
+    def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
         """Return blocks joined in time.
 
         There may be none.
@@ -85,8 +95,8 @@ class Readings(Protocol[Sampled, Summed_co]):
         They hold at a state; the first axis is time.
         """
 
-    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Summed_co:
-        """Return the running integrals.
+    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
+        """Return the running integrals of every bearing.
 
         `stored` is the energy taken up since the start [J].
         """
@@ -125,24 +135,24 @@ class BearingReadings:
             cage = float(np.mean(L.elements_in(context.bundle, y)["azimuth"]))
         return np.array([cage - outer, inner - outer])
 
-    def sampled(self, times: FloatArray, states: FloatArray) -> Channels:
+    def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
         """Return every channel at samples.
 
         Channel -> array, first axis is time.
         """
-        return observe(core(), self._context, times, states)
+        return MachineSamples({}, [observe(core(), self._context, times, states)])
 
-    def joined(self, blocks: list[Channels]) -> Channels:
+    def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
         """Return blocks one after the other in time as one."""
         if not blocks:
             return self.sampled(np.zeros(0), np.zeros((0, self._context.size)))
-        return _joined(blocks)
+        return MachineSamples({}, [_joined([block.bearings[0] for block in blocks])])
 
     def channels(self, number: int, time: float, y: FloatArray) -> Channels:
         """Return every channel at a state."""
-        return self.sampled(np.array([time]), y.reshape(1, -1))
+        return self.sampled(np.array([time]), y.reshape(1, -1)).bearings[0]
 
-    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Sums:
+    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
         """Return the running integrals since the start.
 
         ``loss.<name>`` for each of LOSSES [J], ``support`` (taken by dampers to the ground) [J], ``input`` (all
@@ -154,7 +164,7 @@ class BearingReadings:
         """
         so_far, turned = running(values), self._angles(y) - self._start
         losses = losses_by_ring(self._context.model.geometry, values[: -L.BESIDE_LOSSES])
-        return {
+        own = {
             **{f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)},
             "support": float(so_far["support"]),
             "input": float(so_far["input"]),
@@ -166,6 +176,7 @@ class BearingReadings:
             "inner_angle": float(turned[1]),
             **dict(zip("xyz", so_far["position"].tolist(), strict=True)),
         }
+        return [own]
 
     def state(self) -> dict[str, FloatArray]:
         """Return what a continuation needs."""
@@ -174,17 +185,6 @@ class BearingReadings:
     def restore(self, state: Mapping[str, FloatArray]) -> None:
         """Continue from what `state` returned."""
         self._start = state["angles"].copy()
-
-
-@dataclass(frozen=True)
-class MachineSamples:
-    """Samples of a machine.
-
-    It has those of the machine, and those of every bearing as a run of it alone has them.
-    """
-
-    machine: Channels
-    bearings: list[Channels]
 
 
 class MachineReadings:
