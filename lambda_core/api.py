@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.analysis.electric.bearing_currents import electric, film_from_capacitance
     from lambda_core.analysis.rotor.api import modes
     from lambda_core.analysis.thermal.api import thermal, warm_up
+    from lambda_core.case.api import builtin_cases, case, save, schema
     from lambda_core.discovery.api import plugins, use_plugin
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.export.fmu.unit_file import export_fmu
@@ -25,7 +26,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.export.ross import ross_rotor
     from lambda_core.export.stiffness import write_stiffness
     from lambda_core.fitting.api import compare_measured, fit, traction
-    from lambda_core.model.api import builtin_cases, case, catalogue, check, describe, init_case, save, schema
+    from lambda_core.model.api import catalogue, check, describe, init_case
     from lambda_core.runs.api import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.runs.compare import compare
     from lambda_core.runs.stored import cite, result, side_by_side, summary

@@ -33,7 +33,7 @@ CONTACT_UNITS = {
 }  # fmt: skip
 
 
-class Equilibrium(Record):
+class StartState(Record):
     """The quasi-static state that the run started from."""
 
     loaded_balls: int = quantity(
@@ -165,5 +165,5 @@ class BearingSummary(Banded):
         "wall time per revolution of the inner ring against the outer", "s", label="wall time per revolution",
         decimals=FLOATING, digits=3,
     )  # fmt: skip
-    equilibrium: Equilibrium
+    equilibrium: StartState
     assumptions: list[str]

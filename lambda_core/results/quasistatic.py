@@ -20,8 +20,7 @@ from lambda_core.model.geometry.axial_play import axial_play
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.answer import Answer, dataset, declared_numbers, drawn
 from lambda_core.results.averages import finite
-from lambda_core.results.bearing_summary import CONTACT_UNITS, BearingSummary, Contact
-from lambda_core.results.bearing_summary import Equilibrium as StartState
+from lambda_core.results.bearing_summary import CONTACT_UNITS, BearingSummary, Contact, StartState
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded, ModelBand
 from lambda_core.results.quantity import FLOATING, quantity, same_as, shown

@@ -18,7 +18,7 @@ from lambda_core.elements.ball.kinds import kind_of
 from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.results.answer import dataset, declared_numbers
 from lambda_core.results.averages import Interval, finite
-from lambda_core.results.bearing_summary import BearingSummary, Contact, Equilibrium
+from lambda_core.results.bearing_summary import BearingSummary, Contact, StartState
 from lambda_core.results.convergence import (
     settings_of,
     shortfalls,
@@ -470,10 +470,10 @@ def _sample(result: Result, row: int) -> dict[str, NDArray[np.float64]]:
     return result.sample(row, (*names, "capacitance", "bearing_capacitance"))
 
 
-def _equilibrium(result: Result) -> Equilibrium:
+def _equilibrium(result: Result) -> StartState:
     first = _sample(result, 0)
     largest, ring = largest_contact(first["load"])
-    return Equilibrium(
+    return StartState(
         loaded_balls=loaded_balls(first["load"][:, RINGS.index("inner")]),
         max_load_N=largest,
         max_load_ring=ring,

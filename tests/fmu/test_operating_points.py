@@ -183,7 +183,7 @@ def test_options_that_no_curve_follows_are_refused(change: Any, sentence: str) -
     ],
 )
 def test_a_range_that_is_none_is_refused(text: str, sentence: str) -> None:
-    from lambda_core.model.api import case
+    from lambda_core.case.api import case
 
     with pytest.raises(UsageError, match=sentence):
         varied([text], case(CASE))
