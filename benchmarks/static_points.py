@@ -1,6 +1,6 @@
 """Solve random operating points of the catalogue.
 
-``python -m benchmarks.static_points --count 2000``.
+``python -m benchmarks.static_points --count 2000``; ``--rollers`` draws roller bearings.
 
 Draws bearings of all kinds, 1 to 20 000 1/min, oils, 20 to 90 degC, and radial, axial or combined loads from 1 to 25 %
 of the basic dynamic rating (self-aligning and double-row bearings included). Every point has a quasi-static solution
@@ -23,10 +23,18 @@ from typing import Any
 import numpy as np
 
 from lambda_core import api
+from lambda_core.catalogue.protocol import RollerRow
 from lambda_core.domain.errors import CaseError, LambdaError
 
 SEED = 35
 _RPM = 30.0 / np.pi
+_FASTEST = 20_000.0  # 1/min
+_ROLLER_SPEED = 500.0  # n d_m [m/min] up to which rollers without a limiting speed are drawn
+_RIBBED = ("NJ", "NUP", "NCF")  # cylindrical roller bearings that take thrust
+_STEEPEST = 0.4  # their thrust over the radial load
+# Thrust over F_r tan(alpha) at which half of a tapered bearing's circumference is loaded (Harris and Kotzalas, vol. 1,
+# ch. 7: 1.215), and some more: with less the bearing alone opens.
+_HALF_LOADED = 1.3
 
 
 @dataclass(frozen=True)
@@ -38,14 +46,16 @@ class Point:
     changes: tuple[str, ...]
 
 
-def points(count: int, seed: int = SEED) -> Iterator[Point]:
+def points(count: int, seed: int = SEED, *, rollers: bool = False) -> Iterator[Point]:
     """Yield operating points from the catalogue.
 
-    Speeds stay below twice the limiting speed.
+    Speeds stay below twice the limiting speed; those of rollers without one below 500 m/min times 1/d_m.
+    Rollers get the thrust that their ribs or their angle can carry.
     """
     generator = np.random.default_rng(seed)
     catalogue = api.catalogue()
-    rows = [row for row in catalogue.bearings("", limit=100_000) if row.dynamic_rating is not None]
+    rows: list[Any] = list(catalogue.rollers() if rollers else catalogue.bearings("", limit=100_000))
+    rows = [row for row in rows if row.dynamic_rating is not None]
     oils = [row.name for row in catalogue.lubricants(limit=10_000)]
     catalogue.close()
     kinds = sorted({row.kind for row in rows})
@@ -53,12 +63,11 @@ def points(count: int, seed: int = SEED) -> Iterator[Point]:
     for _ in range(count):
         kind = kinds[generator.integers(len(kinds))]
         row = by_kind[kind][generator.integers(len(by_kind[kind]))]
-        fastest = 20_000.0
-        if row.limiting_speed is not None:
-            fastest = min(fastest, 2.0 * _RPM * float(row.limiting_speed.value))
-        speed = float(np.exp(generator.uniform(0.0, np.log(fastest))))
+        speed = float(np.exp(generator.uniform(0.0, np.log(_fastest(row)))))
         load = float(row.dynamic_rating.value) * float(np.exp(generator.uniform(np.log(0.01), np.log(0.25))))
         angle = {0: 0.0, 1: 0.5 * np.pi, 2: generator.uniform(0.1, 1.4)}[int(generator.integers(3))]
+        if rollers:
+            angle = _carried(row, angle)
         yield Point(
             f"{row.maker} {row.designation}",
             kind,
@@ -72,6 +81,22 @@ def points(count: int, seed: int = SEED) -> Iterator[Point]:
         )
 
 
+def _fastest(row: Any) -> float:
+    """Return the highest speed to draw [1/min]."""
+    if row.limiting_speed is not None:
+        return min(_FASTEST, 2.0 * _RPM * float(row.limiting_speed.value))
+    if isinstance(row, RollerRow):
+        return min(_FASTEST, _ROLLER_SPEED / float(row.pitch_diameter.value))
+    return _FASTEST
+
+
+def _carried(row: RollerRow, angle: float) -> float:
+    """Return the load's angle that a roller bearing can carry."""
+    if row.contact_angle is not None:
+        return max(angle, float(np.arctan(_HALF_LOADED * np.tan(row.contact_angle.value))))
+    return min(angle, float(np.arctan(_STEEPEST))) if row.kind in _RIBBED else 0.0
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Solve the points.
 
@@ -80,10 +105,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.static_points", description=__doc__)
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--rollers", action="store_true", help="roller bearings in place of ball bearings")
     options = parser.parse_args(arguments)
     outcomes: Counter[str] = Counter()
     slowest = 0.0
-    for number, point in enumerate(points(options.count, options.seed)):
+    for number, point in enumerate(points(options.count, options.seed, rollers=options.rollers)):
         begun = time.process_time()
         outcome, sentence = _solved(point)
         spent = time.process_time() - begun

@@ -43,7 +43,7 @@ def report(
     It has a verdict with margins, a sketch, loads, lives, losses, inputs and limits.
 
     The report is one HTML file that needs no network, or a PDF (--out x.pdf) where a browser or WeasyPrint is
-    installed; the extra "pdf" brings one. A machine has its shaft first, then a page for each bearing.
+    installed; the extra "pdf" brings one. A machine has its shaft first, then two bearings on a page.
     """
     from lambda_core import api
 

@@ -234,6 +234,7 @@ def test_the_report_of_rollers_draws_and_names_rollers(bearing: str, words: str,
     text = api.report(case, tmp_path / "rollers.html", appendices=[]).read_text(encoding="utf-8")
     sheets = text.partition("<h2>Inputs")[0].partition("<body")[2]
     assert words in sheets
+    assert not re.search(r"<dd>[–-] *<", sheets)  # nothing that no catalogue gives
     assert "load of every roller" in sheets
     assert not re.search(r"\bballs?\b|deep groove", sheets)
 
@@ -247,12 +248,15 @@ def test_several_results_stand_in_one_document(radial_run: Result, tmp_path: Pat
 def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None:
     case = tmp_path / "box.toml"
     case.write_text(geared_shaft("box"), encoding="utf-8")
-    page = Page(api.report(case, tmp_path / "box.html", appendices=["origin"]).read_text(encoding="utf-8"))
-    found = api.quasistatic(case)
+    text = api.report(case, tmp_path / "box.html", appendices=["origin"]).read_text(encoding="utf-8")
+    page, found = Page(text), api.quasistatic(case)
     assert isinstance(found, MachineEquilibrium)
     for words in ("Bearing left", "Bearing right", "gear wheel", "forces and moments of the bearings"):
         assert words in page.text
-    assert page.text.count("MET: L_nmrh") == 4  # of both bearings, on the first page and on their own
+    assert text.count('<section class="sheet') == 3 + 1  # after the first page, and the appendix
+    assert page.text.count("MET: L_nmrh") == 2
+    assert page.text.count("minimum load") == 2
+    assert page.text.count("load P, least") == 1  # the limits of both in one table
     assert page.tags.count("svg") == 1 + 1 + 2 * 2  # sketch, deflection and bending, section and loads of each
     with pytest.raises(UsageError, match="leave out --bearing"):
         api.report(case, tmp_path / "x.html", bearing="left")

@@ -272,7 +272,7 @@ def report(
     """Write one document about results as HTML or PDF.
 
     Four pages about one bearing: verdict with margins, sketch and key numbers; loads, lives and losses; inputs;
-    limits. A machine has its shaft first, then a page for each bearing.
+    limits. A machine has its shaft first, then two bearings on a page.
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,8 @@ from lambda_core.export.report.key_tables import (
     machine_figures,
     machine_reactions,
     margins,
+    margins_of_two,
+    more_figures,
     value_tables,
 )
 from lambda_core.export.report.sketch import bearing_sketch, load_sketch, shaft_sketch
@@ -73,10 +75,13 @@ class BearingPart:
     is_met: bool
     margin_line: str
     margins: Table | None
-    figures: Sequence[tuple[str, str, str]]
+    figures: Sequence[tuple[str, str, str]]  # what the table over a machine's bearings has, too
+    more: Sequence[tuple[str, str, str]]
     sketch: str
     loads: str  # picture of the loads of its balls
-    tables: tuple[Table, ...]
+    lives: Table
+    losses: Table
+    contacts: Table
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,7 @@ class Chapter:
     figures: Sequence[tuple[str, str, str]] = ()
     sketch: str = ""
     overview: tuple[Table, ...] = ()  # of a machine: a column for each bearing
+    reactions: Table | None = None  # of a machine
     shown: tuple[Picture, ...] = ()  # pictures of the standard pages
     inputs: Inputs | None = None
     tables: tuple[Table, ...] = ()  # in the appendices
@@ -107,6 +113,14 @@ class Chapter:
     trust_tables: tuple[Table, ...] = ()
     definition: str = ""
     notes: tuple[str, ...] = field(default=())
+
+    @property
+    def limits(self) -> tuple[Table, ...]:
+        """Return margins to limits; two bearings share a table."""
+        found = {one.name: one.margins for one in self.bearings if one.margins is not None}
+        if len(found) == 2:
+            return (margins_of_two(found),)
+        return tuple(replace(table, caption=name) for name, table in found.items())
 
 
 def bearing_part(
@@ -126,8 +140,6 @@ def bearing_part(
     """
     element = "roller" if "rollers" in geometry else "ball"
     verdict: Verdict | None = found.verdict
-    every = (lives(found, element), breakdown(found, units), contacts(found, units, element))
-    tables = [table for table in every if table.rows]
     return BearingPart(
         name=name,
         title=found.title,
@@ -137,9 +149,12 @@ def bearing_part(
         margin_line="   ".join(verdict.lines(units)[1]) if verdict is not None else "",
         margins=margins(verdict, units) if verdict is not None else None,
         figures=key_figures(found, units),
+        more=more_figures(found, units),
         sketch=bearing_sketch(geometry, loads, speed, units),
         loads=load_sketch(found.contacts, units, element),
-        tables=tuple(tables),
+        lives=lives(found, element),
+        losses=breakdown(found, units),
+        contacts=contacts(found, units, element),
     )
 
 
@@ -198,7 +213,7 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
         subtitle=f"{found.speed_rpm:.5g} 1/min, quasi-static at t = 0", state="equilibrium found", good=True,
         bearings=parts, warnings=_sentences(found.warned(), units),
         sketch=shaft_sketch(machine_data(model), sizes, units),
-        overview=(machine_figures(found, units), machine_reactions(found, units)), shown=tuple(pictures),
+        overview=(machine_figures(found, units),), reactions=machine_reactions(found, units), shown=tuple(pictures),
         inputs=machine_inputs(model, units), notes=(_QUASISTATIC,),
     )  # fmt: skip
 
@@ -326,7 +341,5 @@ def machine_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
 
     Laws and values of its first bearing represent those that all share.
     """
-    from dataclasses import replace
-
     first = case_inputs(model.bearings[0].model, units)
     return replace(first, assumptions=_sentences(model.assumptions, units), case_toml=model.case_toml)

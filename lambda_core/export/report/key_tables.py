@@ -11,6 +11,7 @@ from lambda_core.domain.number_text import hours, hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
 from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.quantity import quantities, quantity_of, remaining
 from lambda_core.results.text import PLACED
 from lambda_core.views.table import StudyTable
@@ -29,6 +30,7 @@ _IN_PARTS = ("materials", "forces", "bodies")
 
 
 _CONTACT = "contacts that carry load"
+_UNKNOWN = ("–", "-", "")  # what is written for a value that does not exist
 _LEAST_PART = 5e-4  # of the friction torque that a mechanism has to have
 _LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
 
@@ -46,9 +48,9 @@ class Table:
 
 
 def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
-    """Return the key figures of a run.
+    """Return loss, lives, safety, film and pressure.
 
-    They are loss, life, safety and lubrication; each has a name, a number and a unit.
+    Each has a name, a number and a unit; a table over the bearings of a machine has the same.
 
     `found` is a run, an equilibrium, or a bearing of one.
     """
@@ -60,33 +62,38 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
     rows += _band(found, "friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units)
     rows.append(_figure(found, "power_loss_W", units))
     rows += _band(found, "power_loss_W", "W", "power loss, 90 % model band", units)
-    if rating is not None:
-        rows += [
-            _figure(rating, "skf_torque_Nmm", units),
-            _figure(rating, "schaeffler_torque_Nmm", units),
-        ]
     rows += [(f"{text} {symbol}, {standard}", _life(life), "") for text, symbol, standard, life in _every_life(found)]
     if rating is not None:
-        rows += [
-            _figure(rating, "static_safety", units, "static safety C0/P0, ISO 76"),
-            _figure(rating, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
-        ]
+        rows.append(_figure(rating, "static_safety", units, "static safety C0/P0, ISO 76"))
     film = getattr(found, "min_film_um", None)
     rows.append(
         _figure(found, "min_film_um", units)
         if film is not None
         else ("smallest central film", rounded(_least(found.film_um, units)), units.unit("um"))
     )
+    return _known([*rows, _figure(found, "max_pressure_GPa", units)])
+
+
+def more_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
+    """Return catalogues' torques, lubrication, tilt and the rest."""
+    rating, rows = getattr(found, "rating", None), []
+    if rating is not None:
+        rows = [
+            _figure(rating, "skf_torque_Nmm", units),
+            _figure(rating, "schaeffler_torque_Nmm", units),
+            _figure(rating, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
+        ]
     lambdas = getattr(found, "film_parameter", [])
     if lambdas:
         rows.append(("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in lambdas), ""))
     tilts = getattr(found, "inner_ring_tilt_mrad", None) or getattr(found, "misalignment_mrad", [])
-    return [
-        *rows,
-        _figure(found, "max_pressure_GPa", units),
-        ("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"),
-        *(_remaining(found, units) if not isinstance(found, BearingSummary) else ()),
-    ]
+    rows.append(("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"))
+    return _known([*rows, *(_remaining(found, units) if not isinstance(found, BearingSummary) else ())])
+
+
+def _known(rows: Iterable[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
+    """Return the figures that have a value."""
+    return [row for row in rows if row[1] not in _UNKNOWN]
 
 
 def _remaining(found: Any, units: UnitSystem) -> list[tuple[str, str, str]]:
@@ -157,6 +164,33 @@ def margins(verdict: Verdict, units: UnitSystem = SI) -> Table:
     return Table("", ("", "found", "limit", "of limit", "met", "from"), rows)
 
 
+def margins_of_two(tables: Mapping[str, Table]) -> Table:
+    """Return the margins of two bearings in one table.
+
+    Parameters
+    ----------
+    tables : mapping
+        Name of a bearing -> its table of :func:`margins`.
+    """
+    own = [{row[0]: row for row in table.rows} for table in tables.values()]
+    rows = []
+    for name in dict.fromkeys(name for each in own for name in each):
+        found = [each.get(name) for each in own]
+        cells = [_margin_cells(row) for row in found]
+        bases = dict.fromkeys(row[-1] for row in found if row is not None)
+        rows.append((name, *cells[0], *cells[1], "; ".join(bases)))
+    head = [cell for name in tables for cell in (name, "limit", "of limit")]
+    return Table("", ("", *head, "from"), tuple(rows))
+
+
+def _margin_cells(row: tuple[str, ...] | None) -> tuple[str, str, str]:
+    """Return number, limit and share of a margin."""
+    if row is None:
+        return "", "", ""
+    _, value, limit, share, met, _ = row
+    return value, limit, share if met == "yes" else f"{share}, NOT met"
+
+
 def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Table:
     """Return the values of case and bearing.
 
@@ -197,7 +231,8 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
         return (head, *(rounded(value, one.digits) for value in shown), *([""] if last is None else []))
 
     def band(name: str, unit: str, label: str) -> list[tuple[str, ...]]:
-        ends = [getattr(one, f"{name}_band", []) for one in (*moving, total)]
+        ends = [getattr(one, f"{name}_band", []) for one in moving]
+        ends.append(sum_of_bands(ends))
         cells = ("..".join(rounded(units.value(end, unit), 3) for end in own) for own in ends)
         return [(f"  {label}, 90 % model band", *cells)] if any(ends) else []
 

@@ -96,7 +96,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
     summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
     overview: tuple[Table, ...] = ()
-    sketch, shown = "", []
+    sketch, shown, reactions = "", [], None
     alone = summary.bearings[next(iter(summary.bearings))] if len(summary.bearings) == 1 else None
     if result.is_machine and not result.bearing:
         found = _start_of(result)
@@ -107,7 +107,8 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
         }
         sketch = shaft_sketch(model, sizes, units)  # type: ignore[arg-type]
         if found is not None:
-            overview = (machine_figures(found[1], units, summary), machine_reactions(found[1], units))
+            overview = (machine_figures(found[1], units, summary),)
+            reactions = machine_reactions(found[1], units)
             shown = machine_drawings(registry, *found, cover)
     tables = [run_figures(summary, units)] if alone is not None else []
     for one in summary.bearings.values():
@@ -124,6 +125,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
         warnings=tuple(units.sentence(warning) for warning in summary.warnings),
         sketch=sketch,
         overview=overview,
+        reactions=reactions,
         shown=tuple(shown),
         inputs=run_inputs(result, units),
         tables=tuple(tables),
