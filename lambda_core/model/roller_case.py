@@ -55,6 +55,7 @@ _NEEDED = ("kind", "roller_count", "roller_diameter", "effective_length", "pitch
 _QUANTITIES = {"roller_count": "", "contact_angle": "angle"}  # of what is no length
 _BOUNDARY = ("bore_diameter", "outside_diameter", "width")
 _REPLENISHMENT = {"oil bath": 3e-8, "oil jet": 3e-8, "under-race": 3e-8, "grease": 6e-8, "oil-air": 6e-8}
+_CLASSES = "ISO 5753-1:2009, cylindrical roller bearings, as remembered"
 _ROUGHNESS = "Wingertszahn et al. 2023, Lubricants 11, 369"
 _SHORTER = 0.1  # effective length: roller less this share of the diameter at each end where nothing is known
 
@@ -356,11 +357,14 @@ def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float,
     """
     inline, found = case.bearing.geometry, []
     for name in _BOUNDARY:
-        value = getattr(inline, name, None) or (getattr(row, name).value if row else None)
-        if value is None:
-            ledger.problem(f"bearing.geometry.{name}", "is required: the catalogue has no such bearing")
+        written = getattr(inline, name, None)
+        if written:
+            ledger.given(f"bearing.{name}", written, "length")
+            found.append(float(written))
+        elif row:
+            found.append(ledger.row(f"bearing.{name}", getattr(row, name), "length", silent=True))
         else:
-            found.append(float(value))
+            ledger.problem(f"bearing.geometry.{name}", "is required: the catalogue has no such bearing")
     return (found[0], found[1], found[2]) if len(found) == len(_BOUNDARY) else None
 
 
@@ -410,6 +414,7 @@ def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger:
     if case.bearing.clearance is None and (found is None or found.clearance is None):
         ledger.assume("radial clearance class CN")
     if text[:1].isdigit() or text[:1] in "-+.":
+        ledger.given("bearing.clearance", parse(text, "small_length"), "small_length")
         return parse(text, "small_length")
     if text == "geometry" or len(text) > 2:
         ledger.problem("bearing.clearance", f'"{text}": roller bearings take a class C2 to C5 or a value')
@@ -418,7 +423,11 @@ def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger:
     if limits is None:
         return 0.0
     low, high = limits
-    return {"minimum": low, "middle": 0.5 * (low + high), "maximum": high}[case.bearing.clearance_pick]
+    pick = case.bearing.clearance_pick
+    clearance = {"minimum": low, "middle": 0.5 * (low + high), "maximum": high}[pick]
+    status: Status = "given" if case.bearing.clearance or (found and found.clearance) else "assumed"
+    ledger.record("bearing.clearance", clearance, "small_length", f"{pick} of {text}: {_CLASSES}", status)
+    return clearance
 
 
 def _limits(bore: float, text: str) -> tuple[float, float]:

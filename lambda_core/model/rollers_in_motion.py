@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from lambda_core.laws.law import Law
 
 _ELEMENTS = ("ball_inner", "ball_outer")
+# What the balls that stand for rollers say: sizes and clearance of the rollers have their own sources.
+_SIZES = ("bore_diameter", "outside_diameter", "width", "ball_count", "ball_diameter", "pitch_diameter", "clearance")
+_OF_BALLS = {f"bearing.{name}" for name in _SIZES}
 _SIDES = {1: "+x", -1: "-x"}
 NEIGHBOUR, _NEIGHBOURS = next(iter(NEIGHBOURS)), "roller-roller"
 # Force elements whose laws are those of lines or know the shape of rollers, and these roles.
@@ -285,7 +288,8 @@ def _of_laws(
                 given = any(getattr(models, role, None) is not None for models in (asked.models, *general))
                 record_law(ledger, element, role, laws[element][role], "given" if given else "default")
     for value in model.values:
-        if ".".join(value.path.split(".")[:4]) not in changed and not is_of_grooves(value.path):
+        is_own = value.path not in _OF_BALLS and ".".join(value.path.split(".")[:4]) not in changed
+        if is_own and not is_of_grooves(value.path):
             ledger.values.append(value)
     before, now = law_sentences(model.laws), law_sentences(laws)
     for sentence in (*model.assumptions, *now):
