@@ -20,6 +20,17 @@ def test_points_cover_kinds_speeds_and_loads() -> None:
     assert any(point.changes[2] == "loads.axial=0 N" for point in drawn)
 
 
+def test_points_of_rollers_carry_the_thrust_that_their_kind_takes() -> None:
+    drawn = list(points(200, rollers=True))
+    assert {"NU", "N", "NJ", "NUP", "NCF", "needle", "tapered"} <= {point.kind for point in drawn}
+    axial = {
+        kind: [float(p.changes[2].split("=")[1].split()[0]) for p in drawn if p.kind == kind]
+        for kind in ("NU", "tapered")
+    }
+    assert not any(axial["NU"])
+    assert all(axial["tapered"])
+
+
 def test_a_pair_is_judged_by_half_width_and_share() -> None:
     assert Pair(100.0, 100.5, 1.0).agrees
     assert Pair(100.0, 100.05, 0.0).agrees
