@@ -38,10 +38,8 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.studies.speed_curve import stribeck
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.analysis.electric.api import check_discharges_file, write_discharges
-    from lambda_core.analysis.rotor.api import describe_machine
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
-    from lambda_core.analysis.rotor.machine_text import machine_warnings
     from lambda_core.analysis.thermal.api import thermal_pictures
     from lambda_core.case.cards import FieldCard, Kind, field_card
     from lambda_core.case.case import Case
@@ -74,9 +72,8 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.fitting.report import FitReport
     from lambda_core.model.api import draft, problems, templates
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.checks.describe import ValueReport, value_reports
+    from lambda_core.model.checks.describe import ValueReport, model_warnings, value_reports
     from lambda_core.model.checks.oil_table import oil_table
-    from lambda_core.model.checks.operating_limits import operating_warnings
     from lambda_core.model.laws.law_trials import law_problems
     from lambda_core.model.long_form import long_form
     from lambda_core.model.machine_model import MachineModel, MountedBearing

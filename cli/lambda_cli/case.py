@@ -13,7 +13,7 @@ from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel
+    from lambda_core.api import BearingModel, MachineModel
     from lambda_core.domain.errors import Problem
 
 FileOption = Annotated[
@@ -100,12 +100,8 @@ def check(
 
     remember(case)
     try:
-        if api.is_machine(case):
-            _check_machine(case, changes or [], units, as_json=as_json, everything=everything)
-            return
         model = api.check(case, changes or ())
-        assert isinstance(model, api.BearingModel)
-        if faults := [*api.law_problems(model), *_watch_problems(model)]:
+        if faults := _faults(model):
             raise api.CaseError(model.name, faults)
         report = api.describe(model)
     except api.CaseError as error:
@@ -120,35 +116,17 @@ def check(
     typer.echo("\n".join(wrapped(units.system.sentence(report.text(everything)).splitlines(), columns())))
 
 
-def _watch_problems(model: BearingModel) -> list[Problem]:
-    """Return the mistakes of observers and events.
+def _faults(model: BearingModel | MachineModel) -> list[Problem]:
+    """Return the mistakes of laws, observers and events.
 
-    A case without them loads no solver.
+    A case without observers and events loads no solver.
     """
     from lambda_core import api
 
-    return api.watch_problems(model) if model.observers or model.events else []
-
-
-def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool, everything: bool) -> None:
-    """Say what a machine is."""
-    from lambda_core import api
-
-    model = api.check(case, changes)
-    assert isinstance(model, api.MachineModel)
-    faults = dict.fromkeys(fault for bearing in model.bearings for fault in api.law_problems(bearing.model))
-    if any(bearing.model.observers or bearing.model.events for bearing in model.bearings):
-        faults |= dict.fromkeys(api.watch_problems(model))
-    if faults:
-        raise api.CaseError(model.name, list(faults))
-    if as_json:
-        bearings = {bearing.name: bearing.model.title for bearing in model.bearings}
-        found = {"version": 1, "valid": True, "case": model.name, "bearings": bearings}
-        told = {"warnings": api.machine_warnings(model), "assumptions": list(model.assumptions)}
-        typer.echo(json.dumps({**found, **told}, indent=2))
-    else:
-        text = units.system.sentence(api.describe_machine(model, everything=everything))
-        typer.echo("\n".join(wrapped(text.splitlines(), columns())))
+    bearings = model.bearing_models.values()
+    found = dict.fromkeys(fault for one in bearings for fault in api.law_problems(one))
+    watched = api.watch_problems(model) if any(one.observers or one.events for one in bearings) else []
+    return list(found | dict.fromkeys(watched))
 
 
 def schema(out: FileOption = None) -> None:

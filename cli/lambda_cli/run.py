@@ -56,7 +56,7 @@ def run(
     overrides = [*(changes or ()), *limits(duration, max_wall)]
     model = api.check(case, overrides)
     with talk(progress, quiet) as speaker:
-        for line in [] if isinstance(model, api.MachineModel) else api.describe(model).headline:
+        for line in api.describe(model).headline:
             speaker.say(units.system.sentence(line))
         wanted = band is Bands.MODEL
         result = api.run(model, out=out, overwrite=force, band=wanted, progress=speaker.update, announce=speaker.say)

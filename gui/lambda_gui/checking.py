@@ -70,7 +70,7 @@ class Checker:
                 if self._catalogue is None:
                     self._catalogue = api.catalogue()
                 model = api.check(_with_needed(tables, self._root), folder=folder, catalogue=self._catalogue)
-                return Check((), model, tuple(_values(model)), tuple(_warnings(model)))
+                return Check((), model, tuple(_values(model)), tuple(api.model_warnings(model)))
         except api.CaseError as error:
             return Check(tuple(sorted(error.problems, key=self._order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
@@ -110,14 +110,6 @@ def _values(model: BearingModel | MachineModel) -> Iterator[ValueReport]:
                 yield value.model_copy(update={"path": own})
             elif number == 0:
                 yield value
-
-
-def _warnings(model: BearingModel | MachineModel) -> Sequence[str]:
-    from lambda_core import api
-
-    if hasattr(model, "bearings"):
-        return api.machine_warnings(cast("MachineModel", model))
-    return api.operating_warnings(model)
 
 
 def plugin_faults() -> list[str]:

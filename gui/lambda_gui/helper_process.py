@@ -80,7 +80,7 @@ def _friction(say: Say, model: Any, units: Any) -> Any:
 def _assumptions(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
-    return units.sentence(api.describe_machine(model) if api.is_machine(model) else api.describe(model).text()), []
+    return units.sentence(api.describe(model).text()), []
 
 
 _ANSWERS: dict[str, Callable[[Say, Any, Any], Any]] = {

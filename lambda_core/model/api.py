@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.case.machine import MachineCase
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.checks.describe import CaseReport
+    from lambda_core.model.checks.describe import CaseReport, MachineReport
     from lambda_core.model.machine_model import MachineModel
 
 
@@ -89,17 +89,17 @@ def problems(source: Source) -> tuple[Problem, ...]:
     return ()
 
 
-def describe(model: BearingModel) -> CaseReport:
-    """Describe a resolved model with the origin of every value.
+def describe(model: BearingModel | MachineModel) -> CaseReport | MachineReport:
+    """Describe a resolved model, of a bearing with all values.
 
     Parameters
     ----------
-    model : BearingModel
+    model : BearingModel or MachineModel
         From :func:`check`.
 
     Returns
     -------
-    CaseReport
+    CaseReport or MachineReport
         ``text()`` are the lines for people.
     """
     from lambda_core.model.checks.describe import describe as report

@@ -330,6 +330,11 @@ class BearingModel:
     found_temperatures: Any = field(default=None, compare=False, repr=False)
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """Nothing: only machines have parts that may conflict."""
+        return ()
+
+    @property
     def bearing_models(self) -> dict[str, BearingModel]:
         """Itself, under the empty name.
 

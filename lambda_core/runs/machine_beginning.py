@@ -5,7 +5,6 @@ Apart, so that one bearing loads no code of machines.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -14,7 +13,7 @@ from lambda_core.analysis.rotor.bearing_alone import alone_under_load
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.rotor.machine_modes import MachineModes, modes_of
 from lambda_core.domain.number_text import counted
-from lambda_core.model.checks.describe import headline
+from lambda_core.model.checks.describe import headline, machine_headline
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.provenance import BearingOrigin, MachineOrigin, Provenance, machine_data
 from lambda_core.solver.drivers.dynamics import MotionEngine, MotionStart
@@ -55,12 +54,11 @@ class BegunMachine:
         for i, one in enumerate(model.bearings):
             rating = mounted_rating(model, start.state, i, start.equilibria[i])
             keys = engine.bearings[i].context.kernels.keys()
-            lines = headline(alone_under_load(model, start.state, i))
-            bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(lines))
-        names = " + ".join(one.model.title.split(" (")[0] for one in model.bearings)
-        title = f"{model.name}: {names}"
+            own = headline(alone_under_load(model, start.state, i))
+            bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(own))
+        title, *_ = lines = machine_headline(model)
         origin = MachineOrigin(
-            headline=f"{title}\n{30.0 / math.pi * model.speed:.5g} 1/min   {model.body.total_mass:.4g} kg on the shaft",
+            headline="\n".join(lines),
             model=machine_data(model),
             numbers={"drive_torque": start.drive_torque},
             labels={

@@ -160,7 +160,7 @@ def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"at": "85 mm", "force_z": table}}}
     del case["gears"]  # whose power asks for a constant speed
     case["operation"] = {**case["operation"], "speed": speed}
-    told = [sentence for sentence in api.machine_warnings(resolve_machine(case)) if "spline" in sentence]
+    told = [sentence for sentence in api.model_warnings(resolve_machine(case)) if "spline" in sentence]
     assert [sentence.split(": ")[0] for sentence in told] == ["operation.speed", "loads.kick.force_z"]
     assert "-1.327 kN at 35.33 ms" in told[1]
 

@@ -86,7 +86,7 @@ def test_a_new_kind_is_one_module(tandem: Geometry) -> None:
     assert [way.thrust for way in raceways(tandem)] == [1, 1, 1, 1]
     model = dataclasses.replace(api.check(CASE), geometry=tandem)
     assert any("rows in tandem" in line for line in headline(model))
-    assert any("rows in tandem come apart there" in text for text in api.operating_warnings(model))
+    assert any("rows in tandem come apart there" in text for text in api.model_warnings(model))
 
 
 def test_both_rows_in_tandem_carry_the_thrust(tandem: Geometry) -> None:

@@ -184,7 +184,7 @@ def test_its_tilt_is_what_it_is_given() -> None:
         api.check(free)
     free["bodies"]["inner_ring"] = {"tilt_y": {"mode": "free", "stiffness": "100 N m/rad"}}
     assert api.check(free).inner_ring.dofs["tilt_y"].mode == "free"
-    (told,) = [s for s in api.operating_warnings(api.check(case(radial=1000.0, tilt=60e-3))) if "tilts" in s]
+    (told,) = [s for s in api.model_warnings(api.check(case(radial=1000.0, tilt=60e-3))) if "tilts" in s]
     assert "self-aligning ball bearings take up to 44 mrad" in told
 
 

@@ -96,11 +96,11 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
     changed = tables(bearings={"left": {"designation": "SKF 6319", "at": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
-    (sentence,) = api.machine_warnings(resolve_machine(case))
+    (sentence,) = api.model_warnings(resolve_machine(case))
     assert main(["check", str(case), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["warnings"] == [sentence]
     assert main(["check", str(case)]) == 0
-    assert f"WARNING          {sentence}" in " ".join(capsys.readouterr().out.split("\n"))
+    assert f"WARNING {sentence}" in " ".join(capsys.readouterr().out.split())
     checker = Checker(MachineCase)
     assert checker.check(changed, None).warnings == (sentence,)
     checker.close()

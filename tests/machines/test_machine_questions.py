@@ -222,9 +222,21 @@ def test_a_machine_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixtur
     assert main(["quasistatic", str(folder / "none.toml")]) == 2
 
 
+def test_a_machine_is_described_as_one_bearing_is(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Use the same fields in checks and before runs."""
+    both = api.describe(api.check(folder / "box.toml")), api.describe(api.check("6208-axial-1300"))
+    shared = {"version", "valid", "name", "title", "headline", "warnings", "assumptions"}
+    assert all(shared < set(one.model_dump()) for one in both)
+    assert both[0].headline[0] == "box: 6208 + 6206"
+    capsys.readouterr()
+    assert main(["run", str(folder / "box.toml"), "--duration", "0.1 ms", "--out", str(folder / "said.h5")]) == 5
+    assert both[0].headline[1] in capsys.readouterr().err
+    assert api.result(folder / "said.h5").headline.splitlines() == both[0].headline
+
+
 def test_check_says_what_the_shaft_is(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     capsys.readouterr()
     assert main(["check", str(folder / "box.toml"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["bearings"] == {"left": "6208 (SKF)", "right": "6206 (SKF)"}
-    assert "gear wheel" in api.describe_machine(api.check(folder / "box.toml"))
+    assert "gear wheel" in api.describe(api.check(folder / "box.toml")).text()

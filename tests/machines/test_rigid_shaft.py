@@ -50,7 +50,7 @@ def test_friction_is_neglected_where_the_shaft_stands_and_not_in_its_loads() -> 
 
 
 def test_one_bearing_is_no_plural() -> None:
-    assert "1 bearing" in api.describe_machine(api.check(machine())).splitlines()[2].split(", ")
+    assert "1 bearing" in api.describe(api.check(machine())).headline[1].split("   ")
 
 
 def test_a_disc_decides_the_natural_frequency() -> None:

@@ -98,22 +98,3 @@ def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> 
     if listed(overrides, "overrides"):
         raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
     return source
-
-
-def describe_machine(model: MachineModel, *, everything: bool = False) -> str:
-    """Describe a resolved machine in lines for people.
-
-    Parameters
-    ----------
-    model : MachineModel
-        From :func:`check`.
-    everything : bool
-        Every assumption with its source, not only those that leave something open.
-
-    Returns
-    -------
-    str
-    """
-    from lambda_core.analysis.rotor.machine_text import model_text
-
-    return model_text(model, everything=everything)

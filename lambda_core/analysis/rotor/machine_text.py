@@ -7,11 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import NONE, counted, hours
+from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
-from lambda_core.model.checks.describe import assumption_block, verdict_line
-from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.band_text import band_rows, ends
 from lambda_core.results.bearing_table import COLUMN, band_lines, bearing_table, digits
 from lambda_core.results.bearing_table import HEAD as TABLE_HEAD
@@ -22,7 +20,6 @@ from lambda_core.results.text import contamination_text, line
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import BearingMatrices, MachineModes
-    from lambda_core.model.machine_model import MachineModel
 
 _AT_REST, _NO_LIFE = "none: nothing turns", "none: no bearing has a rating life"
 _FAR = 10  # times the running speed: critical speeds beyond it are counted only
@@ -249,51 +246,3 @@ def _with_bodies(share: float) -> str:
 
 def _way(direction: float) -> str:
     return "forward" if direction > 0.5 else "backward" if direction < -0.5 else "elliptic"
-
-
-def machine_warnings(model: MachineModel) -> list[str]:
-    """Return a machine's warnings before a solution.
-
-    Parts that do not fit on a shaft, and bearings beyond a limit.
-
-    Parameters
-    ----------
-    model : MachineModel
-        From :func:`check`.
-
-    Returns
-    -------
-    list of str
-        Sentences with the names of what they are about.
-    """
-    beyond = [(one.name, operating_warnings(one.model, on_shaft=True)) for one in model.bearings]
-    return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
-
-
-def model_text(model: MachineModel, *, everything: bool = False) -> str:
-    """Return the text of a resolved shaft.
-
-    It lists the verdict, its parts, warnings, and assumptions by effect.
-    """
-    warned = machine_warnings(model)
-    shaft = "rigid shaft" if model.body.is_rigid else f"shaft of {1e3 * model.outline[-1][1]:.6g} mm"
-    lines = [
-        verdict_line(model.name, warned, model.assumptions),
-        "",
-        f"{model.name}: {shaft}, {model.body.total_mass:.4g} kg, "
-        f"{30.0 / math.pi * model.speed:.5g} 1/min, {counted(len(model.bearings), 'bearing')}",
-    ]
-    for bearing in model.bearings:
-        side = {1: ", takes +x", -1: ", takes -x", 0: ""}[bearing.takes]
-        lines.append(
-            f"{bearing.name:<{HEAD}}{bearing.model.title} at {1e3 * bearing.position:.6g} mm, clearance "
-            f"{1e6 * bearing.model.geometry.clearance:.4g} um, C {1e-3 * bearing.dynamic_rating:.4g} kN, "
-            f"C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
-        )
-    for body in model.bodies:
-        lines.append(f"{body.name:<{HEAD}}body of {body.mass:.4g} kg at {1e3 * body.centre[0]:.6g} mm")
-    for name, forces in model.gears.items():
-        x, y, z = forces.force
-        lines.append(f"{'gear ' + name:<{HEAD}}force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N")
-    lines += [f"{'WARNING':<{HEAD}}{text}" for text in warned]
-    return "\n".join([*lines, *assumption_block(model.assumptions, everything=everything)])

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 
 from lambda_core.domain.elements import DOFS
+from lambda_core.domain.number_text import counted
 from lambda_core.domain.units import from_si, show
 from lambda_core.elements.roller.slices import SLICES
 from lambda_core.model.bearing_model import BearingModel, Body, TableTerm, Term, TimeFunction
@@ -17,6 +18,9 @@ from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.law_packages import laws_line
 from lambda_core.model.laws.time_functions import scaled
 from lambda_core.model.resolve import case_hash
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
 
 _BODY_NAMES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "cage": "cage"}
 
@@ -34,38 +38,22 @@ class ValueReport(BaseModel):
     status: str
 
 
-class CaseReport(BaseModel):
-    """Report of ``check`` on a valid case.
+class ModelReport(BaseModel):
+    """Report of ``check`` on any valid case.
 
     Its dump is the machine interface (version 1).
-
-    Attributes
-    ----------
-    valid : bool
-        Always true: an invalid case is an error.
-    hash : str
-        Of all that decides the numbers of a run.
-    bodies : dict of str to str
-        Mass and boundary conditions of each body.
-    models : dict of str to dict
-        Force element to role to the name of the law.
-    warnings : list of str
-        Where the case leaves what bearing, oil and laws are made for, as far as that is known before solving.
-    values : list of ValueReport
-        Every frozen value with its origin.
     """
 
     version: Literal[1] = 1
-    valid: Literal[True] = True
+    valid: Literal[True] = Field(True, description="always true: an invalid case is an error")
     name: str
     title: str
-    hash: str
-    headline: list[str]
-    bodies: dict[str, str]
-    models: dict[str, dict[str, str]]
-    warnings: list[str]
+    headline: list[str] = Field(description="lines that say what the model is")
+    warnings: list[str] = Field(
+        description="where the case leaves what bearing, oil and laws are made for, as far as that is known before "
+        "solving"
+    )
     assumptions: list[str]
-    values: list[ValueReport]
 
     def text(self, everything: bool = False) -> str:
         """Return the lines of the report.
@@ -78,11 +66,56 @@ class CaseReport(BaseModel):
             Also the laws, and every assumption with its source.
         """
         lines = [verdict_line(self.name, self.warnings, self.assumptions), "", *self.headline]
-        lines += _block("WARNING", self.warnings)
-        lines += _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
-        if everything:
-            lines += _block("models", _model_lines(self.models))
+        lines += [*_block("WARNING", self.warnings), *self._parts(everything)]
         return "\n".join([*lines, *assumption_block(self.assumptions, everything=everything)])
+
+    def _parts(self, everything: bool) -> list[str]:
+        """Return the lines about the parts of the model."""
+        raise NotImplementedError
+
+
+class CaseReport(ModelReport):
+    """Report of ``check`` on the case of one bearing.
+
+    Attributes
+    ----------
+    hash : str
+        Of all that decides the numbers of a run.
+    bodies : dict of str to str
+        Mass and boundary conditions of each body.
+    models : dict of str to dict
+        Force element to role to the name of the law.
+    values : list of ValueReport
+        Every frozen value with its origin.
+    """
+
+    hash: str
+    bodies: dict[str, str]
+    models: dict[str, dict[str, str]]
+    values: list[ValueReport]
+
+    def _parts(self, everything: bool) -> list[str]:
+        lines = _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
+        return [*lines, *_block("models", _model_lines(self.models))] if everything else lines
+
+
+class MachineReport(ModelReport):
+    """Report of ``check`` on the case of a machine.
+
+    Attributes
+    ----------
+    bearings : dict of str to str
+        Name of each bearing to its title.
+    parts : dict of str to str
+        Name of each bearing, body and gear to its place and size.
+    """
+
+    bearings: dict[str, str]
+    parts: dict[str, str]
+
+    def _parts(self, everything: bool) -> list[str]:
+        del everything  # laws are listed in the results of the bearings
+        return [line for name, text in self.parts.items() for line in _block(name, [text])]
 
 
 def verdict_line(name: str, warnings: Sequence[str], assumptions: Sequence[str]) -> str:
@@ -107,8 +140,12 @@ def assumption_block(assumptions: Sequence[str], *, everything: bool = False) ->
     return [*lines, *_block("", ["laws, published and numerical values, sources: --all"] if assumptions else [])]
 
 
-def describe(model: BearingModel) -> CaseReport:
+def describe(model: BearingModel | MachineModel) -> CaseReport | MachineReport:
     """Return what a resolved model is and assumes."""
+    return _bearing(model) if isinstance(model, BearingModel) else _machine(model)
+
+
+def _bearing(model: BearingModel) -> CaseReport:
     return CaseReport(
         name=model.name,
         title=model.title,
@@ -118,10 +155,65 @@ def describe(model: BearingModel) -> CaseReport:
         models={
             element: {role: law.model.name for role, law in roles.items()} for element, roles in model.laws.items()
         },
-        warnings=operating_warnings(model),
+        warnings=model_warnings(model),
         assumptions=list(model.assumptions),
         values=value_reports(model),
     )
+
+
+def _machine(model: MachineModel) -> MachineReport:
+    parts = {}
+    for bearing in model.bearings:
+        side = {1: ", takes +x", -1: ", takes -x", 0: ""}[bearing.takes]
+        parts[bearing.name] = (
+            f"{bearing.model.title} at {1e3 * bearing.position:.6g} mm, clearance "
+            f"{1e6 * bearing.model.geometry.clearance:.4g} um, C {1e-3 * bearing.dynamic_rating:.4g} kN, "
+            f"C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
+        )
+    parts |= {body.name: f"body of {body.mass:.4g} kg at {1e3 * body.centre[0]:.6g} mm" for body in model.bodies}
+    for name, forces in model.gears.items():
+        x, y, z = forces.force
+        parts[f"gear {name}"] = f"force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N"
+    title, *_ = lines = machine_headline(model)
+    return MachineReport(
+        name=model.name,
+        title=title,
+        headline=lines,
+        bearings={bearing.name: bearing.model.title for bearing in model.bearings},
+        parts=parts,
+        warnings=model_warnings(model),
+        assumptions=list(model.assumptions),
+    )
+
+
+def machine_headline(model: MachineModel) -> list[str]:
+    """Return the lines that describe a machine.
+
+    They name its bearings, then speed, shaft and mass.
+    """
+    names = " + ".join(bearing.model.title.split(" (")[0] for bearing in model.bearings)
+    shaft = "rigid shaft" if model.body.is_rigid else f"shaft of {1e3 * model.outline[-1][1]:.6g} mm"
+    facts = [f"{30.0 / math.pi * model.speed:.5g} 1/min", f"{shaft}, {model.body.total_mass:.4g} kg"]
+    return [f"{model.name}: {names}", "   ".join([*facts, counted(len(model.bearings), "bearing")])]
+
+
+def model_warnings(model: BearingModel | MachineModel) -> list[str]:
+    """Return a model's warnings before a solution.
+
+    Parts that do not fit on a shaft, and bearings beyond a limit.
+
+    Parameters
+    ----------
+    model : BearingModel or MachineModel
+        From :func:`check`.
+
+    Returns
+    -------
+    list of str
+        Sentences; those of a bearing on a shaft begin with its name.
+    """
+    beyond = [(name, operating_warnings(one, on_shaft=bool(name))) for name, one in model.bearing_models.items()]
+    return [*model.warnings, *(f"{name}: {text}" if name else text for name, told in beyond for text in told)]
 
 
 def value_reports(model: BearingModel) -> list[ValueReport]:
