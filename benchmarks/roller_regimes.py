@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from benchmarks.regime_list import Regime, Samples, ramp
 
 _OIL = {"name": "FVA3", "temperature": "70 degC"}
@@ -59,6 +61,10 @@ ROLLER_REGIMES = (
     Regime(
         "full complement NCF 3008, 50 1/min", ("operation.speed=50 rpm",), 0.05,
         lambda s: bool(_turned(s)[1] > 5.0 and s["asperity_share"].max() > 0.05), FULL,
+    ),
+    Regime(
+        "NU 208 in cold oil", ("lubricant.temperature=20 degC",), 0.01,
+        lambda s: bool(np.abs(s["pocket_force"]).max() < 100.0), NU,
     ),
     Regime(
         "needles NA 4905 without load", ("loads.radial=0 N",), 0.02, lambda s: bool(_carried(s)[2] < 200.0), NEEDLE

@@ -121,7 +121,10 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
             )
     if not abs(residual) <= ENERGY_TOLERANCE:
         what = _beyond(residual, ENERGY_TOLERANCE)
-        found.append(f"the energy residual is {what} of the input, at most {ENERGY_TOLERANCE:g} is allowed")
+        found.append(
+            f"the energy residual is {what} of the input, at most {ENERGY_TOLERANCE:g} is allowed: "
+            "lower solver.tolerance"
+        )
     return found
 
 

@@ -81,6 +81,7 @@ def test_reasons_name_every_condition_that_fails(provenance: MakeProvenance, tmp
     assert len(summary.reasons) == 2
     assert "at most 1 % is allowed" in summary.reasons[0]
     assert "the energy residual is 0.0099 of the input" in summary.reasons[1]
+    assert summary.reasons[1].endswith("lower solver.tolerance")
 
 
 def test_a_condition_that_just_fails_is_told_in_as_many_digits_as_it_takes(

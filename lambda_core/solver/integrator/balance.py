@@ -18,6 +18,7 @@ from lambda_core.solver.arrays.bundle import (
     BVX,
     BWX,
     MECHANISMS,
+    NB,
     NS,
     RUNNING_SIZE,
     SAY,
@@ -32,6 +33,7 @@ from lambda_core.solver.vec import cosine_sine
 # Shares of the energy that flows, over the tolerance, which a step may lose.
 LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
 SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
+_LEFT_ON_ROLLERS = 0.1  # of the power that flows, by what the iteration leaves of forces on rollers
 _AT_ONCE = 0.25  # of what earlier steps have left
 _CLOSER = 0.1  # of the floor is left to the iteration: what it leaves looks to the scheme like a loss of its own
 _ROUNDING = 2.0**-51  # relative, of a double: two units in its last place
@@ -229,13 +231,11 @@ def floor_of(mem, h):
 
 
 @helper
-def allowed(mem, h, share, floor):
-    """Return the allowed loss of a step [J].
+def _flow(mem):
+    """Return the power that flows [W].
 
-    `share` tolerances of what flows, and the floor.
-
-    What flows is put in or dissipated, whichever is more, now or on the average so far; where vibrations are the
-    answer, also what goes to and fro between motion and springs.
+    It is put in or dissipated, whichever is more, now or on the average so far; where vibrations are the answer, also
+    what goes to and fro between motion and springs.
     """
     control, rates, integrals = mem.control[0], mem.rates, mem.integrals
     now, so_far = running_of(rates)[0], running_of(integrals)[0]
@@ -246,7 +246,16 @@ def allowed(mem, h, share, floor):
     flow = max(lost, now.input_abs)
     if control.time > 0.0:
         flow = max(flow, max(all_lost, so_far.input_abs, control.turned_over) / control.time)
-    return share * control.tolerance * h * flow + floor
+    return flow
+
+
+@helper
+def allowed(mem, h, share, floor):
+    """Return the allowed loss of a step [J].
+
+    `share` tolerances of what flows, and the floor.
+    """
+    return share * mem.control[0].tolerance * h * _flow(mem) + floor
 
 
 @vector_helper
@@ -261,6 +270,40 @@ def _work_of_moves(inertia, slope, since):
     return total
 
 
+@vector_helper
+def _power_left(inertia, new, base, slope, per_gamma, first, last):
+    """Return the power of the residual of states first..last [W].
+
+    That of every state counts as positive.
+    """
+    power = 0.0
+    for i in range(first, last):
+        power += abs(new[i] * inertia[i] * ((new[i] - base[i]) * per_gamma - slope[i]))
+    return power
+
+
+@helper
+def _excess_on_rollers(bundle, mem, h):
+    """Return the power left on rollers, relative.
+
+    It is that of the residual, over what the iteration may leave.
+
+    Creep of a line in cold oil is so stiff that a slip which is off by a part of the error allowed per step is a force
+    of hundreds of newtons, and a correction by a matrix of a contact that creeps says nothing of one that slides. What
+    is left turns the rollers over in the next steps, which get short, and skews them; that its energy is balanced does
+    not help.
+    """
+    left, per_gamma = 0.0, 1.0 / mem.control[0].gamma
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if row.size != NB:
+            last = row.first_state + row.size * row.balls
+            left += _power_left(mem.inertia, mem.new, mem.base, mem.slope, per_gamma, row.first_state, last)
+    if left == 0.0:
+        return 0.0
+    return h * left / (_LEFT_ON_ROLLERS * h * _flow(mem) + floor_of(mem, h))
+
+
 @helper
 def leak_of_iterate(bundle, mem, h):
     """Return the iteration's relative leak.
@@ -268,11 +311,12 @@ def leak_of_iterate(bundle, mem, h):
     The energy that Newton leaves unaccounted for, over what a step may lose.
 
     The powers are those of the last iterate, of bypassed bearings of an earlier one: off by the work of its forces
-    on the corrections since at most, and by what of the residual's work is unattributed.
+    on the corrections since at most, and by what of the residual's work is unattributed. See _excess_on_rollers.
     """
     power, given, _ = _residual_work(bundle, mem)
     off = abs(power - given) + _work_of_moves(mem.inertia, mem.slope, mem.since)
-    return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
+    leak = h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
+    return max(leak, _excess_on_rollers(bundle, mem, h))
 
 
 @large_helper
