@@ -65,6 +65,7 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
     return found, np.concatenate(events)
 
 
+@pytest.mark.full
 def test_voltages_and_discharges_are_those_of_the_program(host: Any, unit: Any) -> None:
     """Compare bit by bit on both slopes of the source.
 
@@ -98,6 +99,7 @@ def test_voltages_and_discharges_are_those_of_the_program(host: Any, unit: Any) 
         volts += slopes(k) * (other.get(["time"])[0] - begin)
 
 
+@pytest.mark.full
 def test_an_edge_moves_the_rotor_at_once(host: Any, unit: Any) -> None:
     """Step the source by too little for a discharge.
 
@@ -117,6 +119,7 @@ def test_an_edge_moves_the_rotor_at_once(host: Any, unit: Any) -> None:
     assert bearing.slope("electric.voltage", SOURCE) == 0.0  # what a step has done does not change any more
 
 
+@pytest.mark.full
 def test_a_case_without_a_circuit_has_no_source(
     host: Any, exported: Callable[[int, str], Path], tmp_path: Path
 ) -> None:

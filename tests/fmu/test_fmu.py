@@ -93,6 +93,7 @@ def plain_host(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFac
     return program
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("steps", [100, pytest.param(1000, marks=pytest.mark.slow)])
 def test_a_host_in_c_without_python_has_the_bits_of_the_program(
     host: Any, exported: Export, tmp_path: Path, plain_host: Path, steps: int
@@ -155,6 +156,7 @@ def test_the_next_version_has_the_same_bits(host: Any, exported: Export, tmp_pat
     assert bearings[0].get(outputs) == bearings[1].get(outputs)
 
 
+@pytest.mark.full
 def test_a_prescribed_ring_has_the_bits_of_the_program(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = unit_of(host, exported, tmp_path, 3, "motion")
     unit = host.Instance(unit).ready()
@@ -236,6 +238,7 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
     assert first.do("Reset") == host.OK
 
 
+@pytest.mark.full
 def test_two_threads_step_their_own_bearings_at_once(host: Any, exported: Export, tmp_path: Path) -> None:
     """Step two bearings in two threads in parallel.
 
@@ -256,6 +259,7 @@ def test_two_threads_step_their_own_bearings_at_once(host: Any, exported: Export
     assert at_once == [run(push) for push in pushes]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
     unit = unit_of(host, exported, tmp_path, fmi)
@@ -300,6 +304,7 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     assert bearing.said[-1] == "the simulation has ended: nothing can be set any more"
 
 
+@pytest.mark.full
 def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = unit_of(host, exported, tmp_path)
     late, early = host.Instance(unit, start=5.0).ready(), host.Instance(unit).ready()
@@ -308,6 +313,7 @@ def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) ->
     assert late.get(["bearing.load"]) == early.get(["bearing.load"])
 
 
+@pytest.mark.full
 def test_what_no_bearing_takes_ends_with_a_sentence(host: Any, exported: Export, tmp_path: Path) -> None:
     """Refuse a force in other units with a message.
 
@@ -326,6 +332,7 @@ def test_what_no_bearing_takes_ends_with_a_sentence(host: Any, exported: Export,
     assert bearing.step(STEP) == host.OK
 
 
+@pytest.mark.full
 def test_the_library_asks_for_the_c_library_alone(exported: Export, tmp_path: Path) -> None:
     if shutil.which("nm") is None:
         pytest.skip("the program nm is not installed")
@@ -345,12 +352,14 @@ def test_the_library_asks_for_the_c_library_alone(exported: Export, tmp_path: Pa
         assert library.stat().st_size < 1.5e6
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("fmi", "couple"), [(2, "force"), (3, "force"), (2, "motion"), (3, "motion")])
 def test_the_standard_is_kept(exported: Export, fmi: int, couple: str) -> None:
     validation = pytest.importorskip("fmpy.validation", reason="FMPy is not installed: pip install fmpy")
     assert validation.validate_fmu(str(exported(fmi, couple))) == []
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_fmpy_simulates_it(exported: Export, fmi: int) -> None:
     fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
@@ -361,6 +370,7 @@ def test_fmpy_simulates_it(exported: Export, fmi: int) -> None:
         assert row["inner_ring.x"] == pytest.approx(step["body_position"][0, 0], rel=1e-9)
 
 
+@pytest.mark.full
 def test_units_say_what_one_of_them_is_in_si(host: Any, exported: Export, tmp_path: Path) -> None:
     """Define a unit for every variable, values in SI."""
     unit = unit_of(host, exported, tmp_path)
@@ -375,6 +385,7 @@ def test_units_say_what_one_of_them_is_in_si(host: Any, exported: Export, tmp_pa
     assert used <= defined
 
 
+@pytest.mark.full
 def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "bearing.fmu"
     command = ["export", "fmu", CASE, "-o", str(target), "--processor", "native", "--json", "--quiet"]

@@ -25,6 +25,7 @@ def example(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Any]:
     return importlib.import_module
 
 
+@pytest.mark.full
 def test_fmpy_at_two_temperatures(exported: Export, example: Callable[[str], Any]) -> None:
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
     module = example("bearing_in_fmpy")
@@ -33,6 +34,7 @@ def test_fmpy_at_two_temperatures(exported: Export, example: Callable[[str], Any
     assert warm["inner_ring.x"] == pytest.approx(cold["inner_ring.x"], rel=1e-2)
 
 
+@pytest.mark.full
 def test_fmpy_pushes_a_shaft(machine_unit_file: Path, example: Callable[[str], Any], tmp_path: Path) -> None:
     pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
     module = example("shaft_in_fmpy")
@@ -42,6 +44,7 @@ def test_fmpy_pushes_a_shaft(machine_unit_file: Path, example: Callable[[str], A
     module.draw(found, str(tmp_path / "shaft-fmu.png"))
 
 
+@pytest.mark.full
 def test_omsimulator(exported: Export, example: Callable[[str], Any]) -> None:
     pytest.importorskip("OMSimulator", reason="OMSimulator is not installed: pip install omsimulator")
     pushed = example("bearing_in_omsimulator").push(str(exported(2, "force")), -250.0, end=5e-3)
@@ -113,6 +116,7 @@ def test_the_command_in_the_example_exports_its_case(example: Callable[[str], An
     assert said == due
 
 
+@pytest.mark.full
 def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Callable[[str], Any]) -> None:
     """Iterate by rollback until the speeds agree.
 
@@ -171,6 +175,7 @@ def test_the_text_for_modelica_is_a_model() -> None:
     assert found["r[3]"][-1] == pytest.approx(-2.5e-6, rel=1e-3)
 
 
+@pytest.mark.full
 def test_the_text_for_modelica_names_what_is_there(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = host.Unit(exported(2, "motion"), tmp_path)
     text = (HOSTS / "RotorOnBearing.mo").read_text()

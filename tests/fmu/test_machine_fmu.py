@@ -107,6 +107,7 @@ def circuit_of_the_program(shaft: Path, steps: int, step: float) -> tuple[list[l
     return found, events
 
 
+@pytest.mark.full
 def test_the_circuit_of_a_machine_is_that_of_the_program(host: Any, machine_unit: Any, shaft: Path) -> None:
     """Compare both bearings' circuit while the source rises.
 
@@ -131,6 +132,7 @@ def test_the_circuit_of_a_machine_is_that_of_the_program(host: Any, machine_unit
     assert instance.get(["electric.discharges"])[0] > 0.0
 
 
+@pytest.mark.full
 def test_states_of_a_machine_and_its_inputs(host: Any, machine_unit: Any, shaft: Path) -> None:
     """Restore a state in the FMU and the program.
 
@@ -156,6 +158,7 @@ def test_states_of_a_machine_and_its_inputs(host: Any, machine_unit: Any, shaft:
     assert seen(engine.step_to(2 * STEP)) == first
 
 
+@pytest.mark.full
 def test_warm_oil_is_that_of_a_case_with_warm_oil(host: Any, machine_unit: Any, shaft: Path) -> None:
     instance = host.Instance(machine_unit).ready()
     engine = api.iterate(shaft, (*CHANGES, "lubricant.temperature=76 degC"), exact=True)
@@ -167,6 +170,7 @@ def test_warm_oil_is_that_of_a_case_with_warm_oil(host: Any, machine_unit: Any, 
     assert instance.get([name])[0] == pytest.approx(expected[name], rel=5e-3)  # the start is that of 70 degC
 
 
+@pytest.mark.full
 def test_what_a_machine_tells_and_refuses(host: Any, machine_unit: Any, shaft: Path) -> None:
     early = host.Instance(machine_unit)
     assert early.set("gears.wheel.force_z", -100.0) == host.OK

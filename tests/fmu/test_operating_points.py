@@ -42,6 +42,7 @@ def moved(bearing: Any) -> Any:
     return bearing
 
 
+@pytest.mark.full
 def test_a_start_elsewhere_is_that_of_the_case_there(host: Any, unit: Any) -> None:
     """Solve the equilibrium of another point in the FMU.
 
@@ -62,6 +63,7 @@ def test_a_start_elsewhere_is_that_of_the_case_there(host: Any, unit: Any) -> No
     assert found[2] < 0.8 * at_start  # another point indeed
 
 
+@pytest.mark.full
 def test_values_of_the_case_leave_the_bits_of_the_case(host: Any, unit: Any) -> None:
     bearings = [host.Instance(unit), host.Instance(unit), host.Instance(unit)]
     starts = {n: float(v[0].get("start")) for n, v in unit.variables.items() if len(v) and v[0].get("start")}
@@ -78,6 +80,7 @@ def test_values_of_the_case_leave_the_bits_of_the_case(host: Any, unit: Any) -> 
     assert bearings[0].get(outputs) == bearings[1].get(outputs) == bearings[2].get(outputs)
 
 
+@pytest.mark.full
 def test_temperature_is_an_input_that_changes_while_the_bearing_turns(host: Any, unit: Any) -> None:
     bearing, film = host.Instance(unit).ready(), ["bearing.film_minimum"]
     bearing.step(STEP)
@@ -100,6 +103,7 @@ def test_temperature_is_an_input_that_changes_while_the_bearing_turns(host: Any,
     assert float(about[0].get("max")) == 19e-6
 
 
+@pytest.mark.full
 def test_what_cannot_be_is_answered_with_a_sentence(host: Any, unit: Any) -> None:
     bearing = host.Instance(unit)
     assert bearing.set("lubricant.temperature", 273.15 + 90.0) == host.ERROR
@@ -111,6 +115,7 @@ def test_what_cannot_be_is_answered_with_a_sentence(host: Any, unit: Any) -> Non
     assert bearing.ready().step(STEP) == host.OK
 
 
+@pytest.mark.full
 def test_a_prescribed_bearing_starts_where_its_host_has_the_rings(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = host.Unit(exported(2, "motion"), tmp_path)
     bearing, names = host.Instance(unit), ["inner_ring.reaction_force_x", "inner_ring.reaction_force_z"]

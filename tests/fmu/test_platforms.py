@@ -143,6 +143,7 @@ def ran(command: list[str], unit: Any, library: Path, environment: dict[str, str
     return [[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()]
 
 
+@pytest.mark.full
 def test_a_processor_without_the_features_is_told_so(
     host: Any, exported: Callable[[int, str], Path], tmp_path: Path, c_compiler: tuple[str, ...]
 ) -> None:

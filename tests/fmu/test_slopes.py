@@ -83,6 +83,7 @@ def moving(host: Any, unit: Any) -> Any:
     return bearing
 
 
+@pytest.mark.full
 def test_stiffness_and_damping_are_those_of_differences(host: Any, exported: Export, tmp_path: Path) -> None:
     """Compare both rings' matrices with differences.
 
@@ -109,6 +110,7 @@ def test_stiffness_and_damping_are_those_of_differences(host: Any, exported: Exp
     assert bearing.get(bearing.unit.named("output")) == before
 
 
+@pytest.mark.full
 def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export, tmp_path: Path) -> None:
     """Compare with central differences about the motion.
 
@@ -140,6 +142,7 @@ def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export
     assert bearing.get(unit.named("output")) == before
 
 
+@pytest.mark.full
 def test_who_asks_for_slopes_changes_nothing(host: Any, exported: Export, tmp_path: Path) -> None:
     """Ask for slopes in motion and compare the bits."""
     unit = unit_of(host, exported, tmp_path, "motion")
@@ -153,6 +156,7 @@ def test_who_asks_for_slopes_changes_nothing(host: Any, exported: Export, tmp_pa
         assert asked.get(outputs) == left.get(outputs)
 
 
+@pytest.mark.full
 def test_before_it_steps_balls_follow(host: Any, exported: Export, tmp_path: Path) -> None:
     """Derive outputs from an equilibrium during initialisation.
 
@@ -182,6 +186,7 @@ def test_before_it_steps_balls_follow(host: Any, exported: Export, tmp_path: Pat
     assert not slopes(free, [*places, *forces], ["inner_ring.force_x"]).any()  # a force moves nothing at once
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("couple", "unknown", "known"), [
     ("motion", "inner_ring.reaction_force_x", "inner_ring.x"),
     ("motion", "bearing.loss", "inner_ring.x"),

@@ -18,6 +18,7 @@ STEP = 1e-4  # [s]
 Export = Callable[[int, str], Path]
 
 
+@pytest.mark.full
 def test_where_laws_end_the_host_is_told(host: Any, exported: Export, tmp_path: Path) -> None:
     """Warn at the start and after a tenth second.
 
@@ -54,6 +55,7 @@ def test_where_laws_end_the_host_is_told(host: Any, exported: Export, tmp_path: 
     assert told(60e3, 3) == []
 
 
+@pytest.mark.full
 def test_a_film_thinner_than_the_roughness_is_told(host: Any, exported: Export, tmp_path: Path) -> None:
     """Warn of thin films at 60 degrees and slow shafts.
 
@@ -79,6 +81,7 @@ def test_a_film_thinner_than_the_roughness_is_told(host: Any, exported: Export, 
     assert len(bearing.said) == count
 
 
+@pytest.mark.full
 def test_metal_that_touches_is_no_infinite_capacitor(host: Any, exported: Export, tmp_path: Path) -> None:
     """Report mixed friction as contact, not as capacitance.
 
