@@ -210,3 +210,29 @@ def test_an_export_by_motion_is_refused_before_it_begins(
     with pytest.raises(UsageError, match="couple by force"):
         api.export_fmu(source, changes, out=tmp_path / "a.fmu", couple="motion", announce=said.append)
     assert not said
+
+
+def test_slopes_of_a_machine_are_those_of_differences(host: Any, machine_unit: Any) -> None:
+    """Compare slopes with differences while the shaft speeds up.
+
+    States stand at a communication point: a speed changes films and losses there, a load changes nothing.
+    """
+    instance = host.Instance(machine_unit).ready()
+    assert [instance.set("shaft.spin", 310.0), instance.set("shaft.spin_rate", 50.0)] == [host.OK] * 2
+    assert [instance.step(STEP) for _ in range(3)] == [host.OK] * 3
+    before = instance.get(machine_unit.named("output"))
+    seen = ["machine.loss", "bearings.left.loss", "bearings.right.film_minimum"]
+    found = [instance.slope(name, "shaft.spin") for name in seen]
+    temperature = instance.slope("machine.loss", "lubricant.temperature")
+    assert instance.slope("machine.loss", "gears.wheel.force_z") == 0.0
+    assert instance.slope("machine.loss", "shaft.spin_rate") == 0.0
+    assert instance.get(machine_unit.named("output")) == before
+    speed, by, sides = 310.0 + 50.0 * instance.time, 1e-3, []
+    assert instance.set("shaft.spin_rate", 50.0) == host.OK
+    for side in (1.0, -1.0):
+        assert instance.set("shaft.spin", speed + side * by) == host.OK
+        sides.append(np.array(instance.get(seen)))
+    expected = (sides[0] - sides[1]) / (2.0 * by)
+    assert np.all(np.abs(expected) > 0.0)
+    assert found == pytest.approx(expected.tolist(), rel=1e-3)
+    assert temperature < 0.0  # a warmer oil loses less

@@ -31,8 +31,6 @@ class About:
         Program and version.
     end, step : float
         What a host may simulate [s].
-    has_slopes : bool
-        Whether it answers with directional derivatives.
     """
 
     name: str
@@ -42,7 +40,6 @@ class About:
     tool: str
     end: float
     step: float
-    has_slopes: bool = True
 
 
 def description(about: About, variables: Sequence[Variable], fmi: int) -> bytes:
@@ -80,8 +77,7 @@ def _abilities(about: About, fmi: int) -> dict[str, str]:
             "providesDirectionalDerivatives",
         ),
     }  # fmt: skip
-    names = [name for name in yes[fmi] if about.has_slopes or not name.startswith("providesDirectional")]
-    return {"modelIdentifier": about.identifier, **dict.fromkeys(names, "true")}
+    return {"modelIdentifier": about.identifier, **dict.fromkeys(yes[fmi], "true")}
 
 
 def _units(root: ET.Element) -> None:

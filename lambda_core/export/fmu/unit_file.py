@@ -176,7 +176,6 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
         tool=f"lambda-bearing {version('lambda-bearing')}",
         end=frozen.duration or _END,
         step=_STEP,
-        has_slopes=frozen.machine is None,
     )
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
         files = {"modelDescription.xml": description(about, seen, fmi), "resources/case.toml": text.encode()}

@@ -37,18 +37,31 @@ static int is_led(lb_bearing *b, const lb_variable *output, const lb_variable *i
 }
 
 /* An input goes on with its derivatives since it was set: say the same from here on, and slopes are those of now. */
-static void anchor(lb_bearing *b, const lb_variable *v) {
-  unsigned row = v->begin - LB_TERM_BEGIN;
+static void anchor(lb_bearing *b, unsigned begin) {
+  unsigned row = begin - LB_TERM_BEGIN;
   double *value = &REAL(b, row + LB_TERM_VALUE), *rate = &REAL(b, row + LB_TERM_RATE);
-  double acceleration = REAL(b, row + LB_TERM_ACCELERATION), passed = REAL(b, LB_CONTROL_TIME) - REAL(b, v->begin);
+  double acceleration = REAL(b, row + LB_TERM_ACCELERATION), passed = REAL(b, LB_CONTROL_TIME) - REAL(b, begin);
   *value += passed * (*rate + 0.5 * passed * acceleration);
   *rate += passed * acceleration;
-  REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
+  REAL(b, begin) = REAL(b, LB_CONTROL_TIME);
+}
+
+/* An input of a machine moves what follows it. */
+static void shift_followers(lb_bearing *b, unsigned place, double by) {
+  for (unsigned i = 0; i < LB_FOLLOWERS; i++) {
+    const lb_follower *f = &lb_followers[i];
+    for (unsigned k = f->first; k < f->first + f->count; k++)
+      if (lb_shares[k].place == place) anchor(b, f->begin), REAL(b, f->place) += lb_shares[k].weight * by;
+  }
 }
 
 static void shift(lb_bearing *b, const lb_variable *v, double by) {
-  if (v->kind == LB_INPUT) anchor(b, v);
-  REAL(b, v->place) += by;
+  if (LB_FOLLOWERS && v->kind == LB_INPUT) {
+    shift_followers(b, v->place, by);
+  } else {
+    if (v->kind == LB_INPUT) anchor(b, v->begin);
+    REAL(b, v->place) += by;
+  }
   if (v->kind == LB_VARIED) lb_follow(b);
   if (HOST(b, PHASE) < LB_STEPPING && v->kind != LB_SOURCE) HOST(b, UNSETTLED) = 1.0;
   b->stale = 1;
@@ -95,7 +108,6 @@ static int with_one(lb_bearing *b, const unsigned *unknowns, size_t n, const lb_
 int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *along,
              double *slopes) {
   if (!b) return LB_ERROR;
-  if (LB_FOLLOWERS) return lb_say(b, LB_ERROR, "slopes of a machine are not known: its description promises none");
   for (size_t i = 0; i < n; i++) {
     if (!lb_real(b, unknowns[i])) return LB_ERROR;
     slopes[i] = 0.0;
