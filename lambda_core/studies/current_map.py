@@ -17,7 +17,6 @@ import numpy as np
 
 from lambda_core.analysis.electric.current_numbers import UNITS
 from lambda_core.analysis.rotor.bearing_alone import bearing_number
-from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.units import parse
@@ -155,21 +154,16 @@ def _study(
     points: str,
 ) -> tuple[Case | MachineCase, Study]:
     """Return the case and study of a map."""
-    from lambda_core.case.case import Case
     from lambda_core.case.case_io import read_case
-    from lambda_core.model.checking import model_of
+    from lambda_core.model.api import check
     from lambda_core.model.laws.law_context import max_speed
-    from lambda_core.model.resolve_machine import resolve_machine
 
     case = read_case(source, listed(overrides, "overrides"))
-    if isinstance(case, Case):
-        refuse_bearing(bearing)
-        model, responses = model_of(case), list(UNITS)
-    else:
-        machine = resolve_machine(case)
-        bearing_number(machine, bearing)
-        model = machine.bearings[0].model
-        responses = [f"{one.name}.{name}" for one in machine.bearings for name in UNITS]
+    model = check(case)
+    if bearing is not None:
+        bearing_number(model, bearing)
+    each = model.bearing_models
+    responses = [f"{one}.{name}" if one else name for one in each for name in UNITS]
     fixed: dict[str, bool | int | float | str] = {"operation.temperatures": "given"}
     if case.electric is None or case.electric.duration is None:
         fixed["electric.duration"] = DURATION
@@ -179,7 +173,7 @@ def _study(
         case="case.toml",
         set=fixed,
         responses=responses,
-        parameters=list(map_parameters(speed, temperature, points, max_speed(model))),
+        parameters=list(map_parameters(speed, temperature, points, max_speed(next(iter(each.values()))))),
     )
     return case, study
 

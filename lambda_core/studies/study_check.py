@@ -143,7 +143,7 @@ def check(
 def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | None) -> str:
     """Return the study's case with its fixed changes, complete."""
     from lambda_core.case.case import Case
-    from lambda_core.case.case_io import apply_overrides, is_machine, load_case
+    from lambda_core.case.case_io import apply_overrides, read_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.discovery.api import registry
     from lambda_core.domain.written_values import written
@@ -153,10 +153,7 @@ def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | Non
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     if case is None:
         local = folder / study.case if folder is not None else Path(study.case)
-        source = local if local.is_file() else study.case
-        if is_machine(source):
-            return resolve_machine(source, changes).case_toml
-        case = load_case(source)
+        case = read_case(local if local.is_file() else study.case)
     if not isinstance(case, Case):
         return resolve_machine(case, changes).case_toml
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.case.case_io import is_machine, refuse_bearing
+from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.checking import model_of
 from lambda_core.results.answer import answers
@@ -145,10 +145,7 @@ def _alone(
 
     A bearing of a machine has the load that it carries there.
     """
-    if not is_machine(source):
-        refuse_bearing(bearing)
-        return model_of(source, overrides)  # type: ignore[arg-type]
-    from lambda_core.analysis.rotor.api import machine_of
     from lambda_core.analysis.rotor.bearing_alone import bearing_alone
+    from lambda_core.analysis.thermal.temperatures import resolved
 
-    return bearing_alone(machine_of(source, overrides), bearing, announce)  # type: ignore[arg-type]
+    return bearing_alone(resolved(source, overrides), bearing, announce)

@@ -345,7 +345,6 @@ def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover
     It is a result, a case, a study or a fit.
     """
     from lambda_core.discovery.api import registry
-    from lambda_core.export.report.chapters import case_inputs
     from lambda_core.export.report.page import run_chapter, study_chapter
     from lambda_core.fitting.report import FitReport
 
@@ -358,13 +357,13 @@ def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover
     subject, kind = subject_of(source, bearing)
     if kind == "result":
         return run_chapter(registry(), subject, cover)
-    from lambda_core.case.case_io import is_machine, toml_tables
-    from lambda_core.export.report.chapters import machine_inputs
+    from lambda_core.case.case_io import toml_tables
+    from lambda_core.export.report.chapters import model_inputs
     from lambda_core.studies.folders import files
 
     definition, case_toml = files(Path(source))
     model = check(toml_tables(case_toml, str(source)), is_static=True)
-    inputs = machine_inputs(model, cover.units) if is_machine(model) else case_inputs(model, cover.units)
+    inputs = model_inputs(model, cover.units)
     return study_chapter(registry(), subject, study_status(Path(source)), inputs, definition, cover)
 
 
@@ -375,20 +374,17 @@ def _is_case(source: str | PathLike[str]) -> bool:
 
 def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
     """Return the chapter about a case at its operating point."""
-    from lambda_core.analysis.thermal.temperatures import ready_machine_of, ready_model
-    from lambda_core.case.case_io import is_machine, refuse_bearing
+    from lambda_core.analysis.thermal.temperatures import ready
+    from lambda_core.case.case_io import refuse_bearing
     from lambda_core.discovery.api import registry
     from lambda_core.export.report.chapters import case_chapter
     from lambda_core.export.report.page import machine_drawings
     from lambda_core.runs.api import quasistatic
 
     refuse_bearing(bearing)
-    if not is_machine(Path(source)):
-        model = ready_model(Path(source), is_static=True)
-        return case_chapter(model, quasistatic(model, band=True), cover.units)
-    machine = ready_machine_of(Path(source), ())
-    found = quasistatic(machine, band=True)
-    return case_chapter(machine, found, cover.units, machine_drawings(registry(), machine, found, cover))
+    model = ready(Path(source), is_static=True)
+    found = quasistatic(model, band=True)
+    return case_chapter(model, found, cover.units, machine_drawings(registry(), model, found, cover))
 
 
 def _cover(project: str, author: str, appendices: Sequence[str], units: str) -> Cover:

@@ -192,7 +192,7 @@ def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Seque
     part = bearing_part(found, _geometry(model), loads=loads, speed=speed, units=units)
     return Chapter(
         kind="case", title=found.title, subtitle=f"{model.name}, quasi-static at t = 0", state="equilibrium found",
-        good=True, bearings=(part,), warnings=_sentences(found.warned(), units), inputs=case_inputs(model, units),
+        good=True, bearings=(part,), warnings=_sentences(found.warned(), units), inputs=model_inputs(model, units),
         notes=(_QUASISTATIC,),
     )  # fmt: skip
 
@@ -214,7 +214,7 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
         bearings=parts, warnings=_sentences(found.warned(), units),
         sketch=shaft_sketch(machine_data(model), sizes, units),
         overview=(machine_figures(found, units),), reactions=machine_reactions(found, units), shown=tuple(pictures),
-        inputs=machine_inputs(model, units), notes=(_QUASISTATIC,),
+        inputs=model_inputs(model, units), notes=(_QUASISTATIC,),
     )  # fmt: skip
 
 
@@ -229,7 +229,7 @@ def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
     return tuple(
         bearing_part(
             one.with_band(band) if band is not None else one,
-            _geometry(result.of_bearing(name).model if result.is_machine else result.model),
+            _geometry(result.of_bearing(name).model),
             name=name if several else "", loads=_carried(one), units=units,
         )
         for name, one in summary.bearings.items()
@@ -296,7 +296,7 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
     """Return the inputs of a run, from its file."""
     from lambda_core.results.citation import citation
 
-    one = result.of_bearing(result.bearing_names[0]) if result.is_machine else result
+    one = result.of_bearing(result.bearing_names[0])
     hashes = dict(one.kernel_keys)
     origin = [*result.versions.items(), ("machine code", hashes.pop("code", "native"))]
     origin += [("plugin", name) for name in one.plugins]
@@ -312,11 +312,8 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
     )
 
 
-def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a study or case.
-
-    They come from the resolved model of one bearing.
-    """
+def _bearing_inputs(model: Any, units: UnitSystem) -> Inputs:
+    """Return the inputs of one resolved bearing."""
     from types import SimpleNamespace
 
     from lambda_core.results.citation import citation
@@ -336,10 +333,10 @@ def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
     )
 
 
-def machine_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a machine.
+def model_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
+    """Return the inputs of a case.
 
     Laws and values of its first bearing represent those that all share.
     """
-    first = case_inputs(model.bearings[0].model, units)
+    first = _bearing_inputs(next(iter(model.bearing_models.values())), units)
     return replace(first, assumptions=_sentences(model.assumptions, units), case_toml=model.case_toml)
