@@ -22,6 +22,7 @@ from lambda_cli.interrupt import second_signal_ends
 from lambda_cli.plugin_option import with_plugin_option
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
 from lambda_core.domain.files import system_refusal
+from lambda_core.domain.late_collection import postpone_collection
 from lambda_core.domain.plugin_errors import PluginError, failures_so_far
 from lambda_core.domain.printable import printable
 
@@ -33,27 +34,7 @@ for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 # An interpreter that ends looks for cycles among all that was imported and compiled: half a second for nothing.
 atexit.register(gc.freeze)
-_START = 400_000  # objects of a program that has imported all and loaded what is compiled, and some more
-
-
-def _collect_after_the_start() -> None:
-    """Start the garbage collector after the imports.
-
-    It finds nothing to drop in what is imported.
-    """
-    usual = gc.get_threshold()
-
-    def begin(phase: str, _: dict[str, int]) -> None:
-        if phase == "stop":
-            gc.callbacks.remove(begin)
-            gc.freeze()
-            gc.set_threshold(*usual)
-
-    gc.callbacks.append(begin)
-    gc.set_threshold(_START, *usual[1:])
-
-
-_collect_after_the_start()
+postpone_collection(gc.freeze)  # it finds nothing to drop in what is imported
 
 
 class LazyGroup(TyperGroup):

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
 from lambda_core.domain.errors import UsageError, nearest
 from lambda_core.domain.files import system_refusal
+from lambda_core.domain.late_collection import late_collection
 from lambda_core.domain.lists import listed
 from lambda_core.domain.printable import printable
 
@@ -49,11 +50,12 @@ def public(function: Callable[P, R], home: str) -> Callable[P, R]:
 
     @wraps(function)
     def called(*args: P.args, **options: P.kwargs) -> R:
-        given = _bound(function, args, options)
-        for name, value in given.arguments.items():
-            given.arguments[name] = _checked(function, name, value)
-        with _refusals(function.__name__):
-            found: Any = function(*given.args, **given.kwargs)
+        with late_collection():
+            given = _bound(function, args, options)
+            for name, value in given.arguments.items():
+                given.arguments[name] = _checked(function, name, value)
+            with _refusals(function.__name__):
+                found: Any = function(*given.args, **given.kwargs)
         return cast("R", _guarded(function.__name__, found) if inspect.isgenerator(found) else found)
 
     called.__module__, called.__qualname__ = home, function.__name__

@@ -376,14 +376,18 @@ def _growing(path: Path) -> h5py.File:
 def _publish(made: Path, path: Path, overwrite: bool) -> None:
     """Give a complete file its name.
 
-    A link refuses a taken one in the same step.
+    A link refuses a taken one in the same step; sticks and shares often have no links.
     """
+    if overwrite:
+        os.replace(made, check_target(path))
+        return
     try:
-        if overwrite:
-            os.replace(made, check_target(path))
-        else:
-            os.link(made, path)
-            made.unlink()
+        os.link(made, path)
+        made.unlink()
     except FileExistsError:
         made.unlink()
         raise taken(path) from None
+    except OSError:
+        if path.exists():
+            raise
+        os.replace(made, path)

@@ -5,6 +5,7 @@ Tests named `windows` force what cannot run here.
 
 from __future__ import annotations
 
+import errno
 import multiprocessing
 import os
 import subprocess
@@ -156,6 +157,19 @@ def test_on_windows_files_are_renamed_while_closed(tmp_path: Path, monkeypatch: 
     assert not any(opened)
     first, second = api.result(tmp_path / "here.h5"), api.result(there)
     assert (first["load"] == second["load"][: len(first["time"])]).all()
+
+
+def test_a_file_system_without_links_takes_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Write a run where hard links are refused, as on exFAT."""
+
+    def refused(source: str | Path, target: str | Path) -> None:
+        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+
+    monkeypatch.setattr(os, "link", refused)
+    api.run(CASE, SHORT, out=tmp_path / "stick.h5")
+    assert api.result(tmp_path / "stick.h5").status().state == "finished"
+    with pytest.raises(UsageError, match="exists"):
+        api.run(CASE, SHORT, out=tmp_path / "stick.h5")
 
 
 def test_names_of_devices_that_windows_cannot_open_are_refused(tmp_path: Path) -> None:
