@@ -156,7 +156,7 @@ def _main(arguments: Sequence[str] | None) -> int:
         ended = outcome if isinstance(outcome, int) else 0
         return ended or (PluginError.exit_code if failures_so_far()[failed:] else 0)
     except LambdaError as error:
-        _say(str(error))
+        _say(error.on_command_line or str(error))
         return error.exit_code
     except (KeyboardInterrupt, typer.Abort):
         _say("interrupted")

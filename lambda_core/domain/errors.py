@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 _PRINTED = 20  # problems of a case; `problems` holds all
+_OPTION = re.compile(r"lambda-bearing [^;,()]*|(?<![\w-])--([a-z][a-z-]*)")  # commands first: they are none
+_PARAMETERS = {"force": "overwrite=True", "set": "overrides", "duration": "solver.duration"}
 _SHOWN = 24  # of the names that are there, where none is near
 
 
@@ -28,9 +31,28 @@ class LambdaError(Exception):
     """Base of every error with a message for people.
 
     Any other exception is a bug.
+
+    Attributes
+    ----------
+    on_command_line : str
+        The message with names of options, where :func:`name_parameters` has put those of Python into it; or "".
     """
 
     exit_code = 1
+    on_command_line = ""
+
+
+def name_parameters(error: LambdaError) -> None:
+    """Name parameters of Python for options.
+
+    Commands to type stay as they are.
+    """
+    text = error.args[0] if len(error.args) == 1 and isinstance(error, UsageError) else None
+    if not isinstance(text, str) or error.on_command_line:
+        return
+    found = _OPTION.sub(lambda m: m[0] if m[1] is None else _PARAMETERS.get(m[1], m[1].replace("-", "_")), text)
+    if found != text:
+        error.on_command_line, error.args = text, (found,)
 
 
 class UsageError(LambdaError):

@@ -78,7 +78,7 @@ def taken(path: Path) -> UsageError:
 
     It is for callers without permission to overwrite.
     """
-    return UsageError(f"{path} exists: choose another name (--out), or overwrite it (--force; overwrite=True)")
+    return UsageError(f"{path} exists: choose another name (--out), or overwrite it (--force)")
 
 
 def check_new(path: Path, overwrite: bool) -> Path:

@@ -14,7 +14,7 @@ from functools import cache, wraps
 from os import PathLike
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, cast
 
-from lambda_core.domain.errors import UsageError, nearest
+from lambda_core.domain.errors import LambdaError, UsageError, name_parameters, nearest
 from lambda_core.domain.files import system_refusal
 from lambda_core.domain.late_collection import late_collection
 from lambda_core.domain.lists import listed
@@ -64,9 +64,15 @@ def public(function: Callable[P, R], home: str) -> Callable[P, R]:
 
 @contextmanager
 def _refusals(name: str) -> Iterator[None]:
-    """Say what the system refuses a function."""
+    """Say what the system refuses a function.
+
+    Other errors name its parameters.
+    """
     try:
         yield
+    except LambdaError as error:
+        name_parameters(error)
+        raise
     except OSError as error:
         if refusal := system_refusal(error):
             raise UsageError(f"{name}: {refusal}") from error

@@ -72,7 +72,7 @@ def check_count(count: int) -> None:
     A number that is too small or too large raises a UsageError.
     """
     if not 1 <= count <= MOST:
-        raise UsageError(f"--sample {count} (sample in Python): must be a number from 1 to {MOST}")
+        raise UsageError(f"--sample {count}: must be a number from 1 to {MOST}")
     sampler_package()
 
 

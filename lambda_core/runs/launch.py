@@ -129,7 +129,7 @@ def _check_end(model: Runnable) -> None:
     asked = model.solver.duration
     end = asked or max(one.solver.max_duration for one in model.bearing_models.values())
     if not end:
-        raise UsageError("nothing turns, so the run needs a duration: --duration, or solver.duration in the file")
+        raise UsageError("nothing turns, so the run needs a duration: give --duration, or one in the file")
     if end > MOST_TIME:
         slow = "" if asked else ", 30 turns of a cage; give --duration"
         raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")

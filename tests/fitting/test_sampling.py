@@ -77,7 +77,7 @@ def test_a_fit_of_a_case_tells_its_samples() -> None:
 
 def test_what_is_missing_or_wrong_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     measured = parse_measurements(MEASURED, "rig.csv")
-    with pytest.raises(UsageError, match=r"--sample -1 .*from 1 to 100000"):
+    with pytest.raises(UsageError, match=r"^sample -1.*from 1 to 100000"):
         api.fit(CASE, measured, ["loss_factor"], sample=-1)
     monkeypatch.setitem(sys.modules, "emcee", None)
     with pytest.raises(UsageError, match=r'pip install "lambda-bearing\[sampling\]"'):

@@ -232,7 +232,7 @@ def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
         api.run(box(), ["solver.duration=1e9 s"], out=tmp_path / "run")
     slow = {"operation": {"speed": "0.001 rpm"}, "gears": {}}
     assert resolve_machine(box(**slow)).solver.max_duration > 1e6  # of an equilibrium nobody asks
-    with pytest.raises(api.UsageError, match="30 turns of a cage; give --duration"):
+    with pytest.raises(api.UsageError, match=r"30 turns of a cage; give solver\.duration"):
         api.run(box(**slow), out=tmp_path / "run")
     with pytest.raises(api.UsageError, match="nothing turns, so the run needs a duration"):
         api.run(box(operation={"speed": "0 rpm"}, gears={}), out=tmp_path / "run")

@@ -6,14 +6,16 @@ import inspect
 import math
 import pickle
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain import public_call
-from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.errors import LambdaError, UsageError, name_parameters
 
 API: Any = api  # for calls that a type checker refuses
 CASE = "6208-axial-1300"
@@ -79,3 +81,19 @@ def test_every_public_function_checks_and_keeps_its_face(name: str) -> None:
         public_call._adapter(plain, parameter)
     with pytest.raises(UsageError, match=f"^{name}: .*; it takes "):
         function(nothing_of_the_kind=1)
+
+
+def test_errors_name_parameters_to_python_and_options_on_the_command_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken = api.init_case("taken", path=tmp_path / "taken.toml", bearing="SKF 6208")
+    with pytest.raises(UsageError, match=r"another name \(out\), or overwrite it \(overwrite=True\)"):
+        api.init_case("taken", path=taken, bearing="SKF 6208")
+    assert main(["init", "taken", "--out", str(taken), "--bearing", "SKF 6208"]) == UsageError.exit_code
+    assert "another name (--out), or overwrite it (--force)" in capsys.readouterr().err
+
+
+def test_commands_in_errors_of_calls_can_be_typed() -> None:
+    error = UsageError("leave out --bearing; lambda-bearing init NAME --as-machine writes a machine")
+    name_parameters(error)
+    assert str(error) == "leave out bearing; lambda-bearing init NAME --as-machine writes a machine"
