@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 Answer = TypeVar("Answer")
 
 log = logging.getLogger("lambda_core")
+_FROM_THE_START = '; it holds from the start: change its parameters, or write events.{}.action = "record"'
 
 
 @dataclass(frozen=True)
@@ -198,7 +199,8 @@ class Watch:
         self._was[name] = bool(found[-1])
         times = samples["time"][begins]
         if times.size and chosen.action == "stop" and not self.ended_by:
-            self.ended_by = f"ended by the event {name} at t = {times[0]:.6g} s: {chosen.item.title}"
+            held = "" if times[0] > 0.0 else _FROM_THE_START.format(name)
+            self.ended_by = f"ended by the event {name} at t = {times[0]:.6g} s: {chosen.item.title}{held}"
         return [(float(time), float(number)) for time in times]
 
     def _called(self, key: str, chosen: ChosenEvent, samples: Mapping[str, FloatArray]) -> NDArray[np.bool_] | None:

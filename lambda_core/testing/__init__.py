@@ -9,7 +9,14 @@ def test_contract():
 from __future__ import annotations
 
 from lambda_core.laws.check import ModelReport
-from lambda_core.testing.laws import assert_increasing, assert_limit, assert_symmetric, check_model, evaluate
+from lambda_core.testing.laws import (
+    assert_increasing,
+    assert_limit,
+    assert_symmetric,
+    check_model,
+    evaluate,
+    states_over_time,
+)
 from lambda_core.testing.trials import method_inputs, run_data
 
 __all__ = [
@@ -21,4 +28,5 @@ __all__ = [
     "evaluate",
     "method_inputs",
     "run_data",
+    "states_over_time",
 ]

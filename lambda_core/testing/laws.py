@@ -22,7 +22,9 @@ from lambda_core.laws.kernels import CompiledKernel, compile_kernel
 from lambda_core.laws.law import Law, law_of
 from lambda_core.laws.par import make_par
 from lambda_core.laws.probe import VECTORS, output_size, trial_context
+from lambda_core.laws.state import ROLE as STATES
 
+_EXACT = 1e-8  # relative error of integrated states
 Parameters = BaseModel | Mapping[str, Any] | None
 
 
@@ -116,7 +118,76 @@ def evaluate(
     TypeError
         When an argument is missing or unknown.
     """
-    law = _model(model)
+    outputs = _prepared(_model(model), model, parameters, context, arguments)[1]()
+    return outputs if len(outputs) > 1 else outputs[0]
+
+
+def states_over_time(
+    model: AnyLaw,
+    times: ArrayLike,
+    parameters: Parameters = None,
+    context: Context | None = None,
+    **arguments: ArrayLike | Callable[[float], float],
+) -> FloatArray:
+    """Integrate the states of a law from their start.
+
+    As in a run no state leaves its bounds.
+
+    Parameters
+    ----------
+    model : function, Law or str
+        Law of the role ``contact_state``, as for :func:`evaluate`.
+    times : array_like
+        Rising times [s]; the states start at the first.
+    parameters, context
+        As for :func:`check_model`.
+    **arguments : float or callable
+        Every argument of the role as for :func:`evaluate`; a callable takes the time [s]. ``t`` is set here.
+
+    Returns
+    -------
+    ndarray, shape (times, states)
+        SI, in the order of the law's declaration.
+
+    Raises
+    ------
+    TypeError
+        For a law of another role, or a missing or unknown argument.
+    AssertionError
+        When the kernel returns another status than 1, or the integration fails.
+    """
+    from scipy.integrate import solve_ivp
+
+    law, moments = _model(model), np.asarray(times, np.float64)
+    if law.role != STATES:
+        raise TypeError(f"{law.label} has no states of its own: give a law of the role {STATES}")
+    courses = {name: value for name, value in arguments.items() if callable(value)}
+    at_first = {name: value(float(moments[0])) for name, value in courses.items()}
+    values, call = _prepared(law, model, parameters, context, {**arguments, **at_first, "t": moments[0]})
+    places = {argument.name: place for place, argument in enumerate(ROLES[law.role].arguments)}
+    start = values[places["par"]][-len(law.states) :]
+    lower, upper = (np.array([getattr(state, end) for state in law.states]) for end in ("lower", "upper"))
+
+    def rates(t: float, state: FloatArray) -> FloatArray:
+        start[:] = np.clip(state, lower, upper)
+        values[places["t"]] = t
+        for name, course in courses.items():
+            values[places[name]] = float(course(t))
+        found = call()[0]
+        outward = ((state <= lower) & (found < 0.0)) | ((state >= upper) & (found > 0.0))
+        return np.where(outward, 0.0, found)
+
+    finest = [_EXACT * state.scale for state in law.states]
+    solved = solve_ivp(rates, (moments[0], moments[-1]), start.copy(), "LSODA", moments, rtol=_EXACT, atol=finest)
+    if not solved.success:
+        raise AssertionError(f"{law.label}: {solved.message}")
+    return np.asarray(np.clip(solved.y.T, lower, upper), np.float64)
+
+
+def _prepared(
+    law: Law, model: AnyLaw, parameters: Parameters, context: Context | None, arguments: dict[str, Any]
+) -> tuple[list[Any], Callable[[], tuple[FloatArray, ...]]]:
+    """Return a kernel's values, and what calls it with them."""
     role = ROLES[law.role]
     wanted = [a.name for a in role.arguments if not a.output and a.name != "par"]
     spared = {a.name: np.nan for a in role.arguments if a.optional and a.name not in taken_by(law.kernel)}
@@ -140,11 +211,15 @@ def evaluate(
             values.append(np.array(np.broadcast_to(np.asarray(arguments[argument.name], np.float64), size)))
         else:
             values.append(float(np.asarray(arguments[argument.name])))
-    status = _compiled(model, law).dispatcher(*handed_over(role, values))
-    if status != 1:
-        raise AssertionError(f"{law.label} returned {status}: {law.errors.get(status, 'no sentence declared')}")
-    outputs = tuple(v for a, v in zip(role.arguments, values, strict=True) if a.output)
-    return outputs if len(outputs) > 1 else outputs[0]
+    kernel = _compiled(model, law)
+
+    def call() -> tuple[FloatArray, ...]:
+        status = kernel.dispatcher(*handed_over(role, values))
+        if status != 1:
+            raise AssertionError(f"{law.label} returned {status}: {law.errors.get(status, 'no sentence declared')}")
+        return tuple(v for a, v in zip(role.arguments, values, strict=True) if a.output)
+
+    return values, call
 
 
 def _along(model: AnyLaw, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:

@@ -122,6 +122,14 @@ def test_an_event_ends_the_run_and_says_so(tmp_path: Path) -> None:
     assert seen.first_s == pytest.approx(2.1e-3, abs=1e-4)
 
 
+def test_an_event_that_holds_from_the_start_says_so(tmp_path: Path) -> None:
+    chosen = {"early": ChosenEvent(event(after(-1.0)), NoParameters(), "stop")}
+    result = launch(model(events=chosen), tmp_path / "ended.h5")
+    assert result["time"][-1] < 1e-3
+    reasons = "; ".join(result.summary().reasons)
+    assert re.search(r"early at t = 0 s: .*; it holds from the start: .*events\.early\.action", reasons)
+
+
 def test_an_event_reads_what_observers_wrote(tmp_path: Path) -> None:
     def worn(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> Any:
         return samples["work_lost"] > 1e-3

@@ -5,7 +5,7 @@ The limit is a share of its clearance in the pockets.
 
 import numpy as np
 
-from lambda_core.plugins import Event, Parameters, hookimpl, parameter
+from lambda_core.plugins import Event, Parameters, ReportTable, Section, hookimpl, parameter
 
 
 class Whirl(Parameters):
@@ -27,3 +27,15 @@ def whirls(samples, parameters, model):
 @hookimpl
 def lambda_events(register):
     register(Event("cage-whirl", "the cage has left the middle", whirls, "own work", Whirl, event_api=1))
+
+
+def told(run):
+    """Tell the report how far the cage's centre went."""
+    inner, cage = run["body_position"][:, 0, 1:], run["body_position"][:, 2, 1:]
+    farthest = 1e6 * np.hypot(*(cage - inner).T).max()
+    return ["The cage against the inner ring's axis.", ReportTable("", ("", "um"), (("farthest", f"{farthest:.3g}"),))]
+
+
+@hookimpl
+def lambda_sections(register):
+    register(Section("cage-whirl", "Cage whirl", told, "own work", section_api=1))
