@@ -160,7 +160,7 @@ def test_on_windows_files_are_renamed_while_closed(tmp_path: Path, monkeypatch: 
 
 
 def test_a_file_system_without_links_takes_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Write a run where hard links are refused, as on exFAT."""
+    """Write a run where links are refused, as on exFAT."""
 
     def refused(source: str | Path, target: str | Path) -> None:
         raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
