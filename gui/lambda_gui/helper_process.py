@@ -69,7 +69,7 @@ def _currents(say: Say, model: Any, units: Any) -> Any:
 def _friction(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
-    names = [bearing.name for bearing in model.bearings] if api.is_machine(model) else [None]
+    names = [name or None for name in model.bearing_models]
     case = tomllib.loads(model.case_toml)
     curves = [api.stribeck(case, bearing=name, announce=say) for name in names]
     return "\n".join(f"{curve.title}: {curve.note}" for curve in curves), [
