@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.catalogue.designation import without_suffixes
+from lambda_core.catalogue.other_kinds import other_kind
 from lambda_core.catalogue.protocol import (
     BearingRow,
     CageRow,
@@ -158,7 +159,7 @@ class SqlCatalogue:
             if not nearest(designation, names):  # a maker and suffixes that are not here hide a number that is
                 numbers = re.findall(r"\d{3,}", wanted)
                 names = [name for name in names if any(number in name for number in numbers)] or names
-            raise _error("designation", unknown_name("bearing", designation, names))
+            raise _error("designation", other_kind(designation) or unknown_name("bearing", designation, names))
         makers = ", ".join(row.maker for row in found)
         if maker is not None:
             found = [row for row in found if row.maker.casefold() == maker.strip().casefold()]

@@ -30,6 +30,11 @@ def test_one_maker_needs_no_name(catalogue: SqlCatalogue) -> None:
         ("6209B", "NSK", '"6209B" is not a known bearing; nearest: 6209, '),
         ("6208'; DROP TABLE bearing; --", None, "is not a known bearing"),
         ("", None, "is not a known bearing"),
+        ("SKF 22216 EK", None, '"SKF 22216 EK" is a spherical roller bearing, a kind that is not simulated; nearest'),
+        ("51208", None, "a thrust ball bearing, a kind that is not simulated; nearest kind: angular contact ball"),
+        ("81112", None, "a cylindrical or needle roller thrust bearing, a kind that is not simulated"),
+        ("29412 E", None, "a spherical roller thrust bearing, a kind that is not simulated"),
+        ("C 2216", None, "a toroidal roller bearing, a kind that is not simulated; nearest kind: needle rollers"),
     ],
 )
 def test_unknown_bearings(catalogue: SqlCatalogue, designation: str, maker: str | None, message: str) -> None:
