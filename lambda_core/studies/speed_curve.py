@@ -45,6 +45,7 @@ _PARTS = {
 _PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
 _LOOKS = {"sliding of the film": 1, "sliding on asperities": 2, "rolling of the film": 3, "hysteresis": 4, "drag": 5}
 SLOWEST = 1.0  # [1/min]
+_STRIDE = 4.0  # ratio of the speeds at which rollers are followed from the fastest
 _LEAST_STEP = 0.9  # ratio of speeds between which the way to an equilibrium is not halved again
 FASTEST_FACTOR = 5e5  # n d_m, the usual limit of the catalogues [mm/min]
 
@@ -132,11 +133,10 @@ def stribeck(
         raise UsageError("a Stribeck curve needs two speeds or more")
     model_at = _models(source, changes, bearing, announce)
     model = model_at(given[0] if given else SLOWEST)
-    if not given:
-        mean_diameter = 500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter)
-        given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
+    fastest = FASTEST_FACTOR / (500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter))
+    given = given or np.geomspace(SLOWEST, fastest, points).tolist()
     kernels = Kernels(model)
-    found = _points(model_at, given, kernels)
+    found = _points(model_at, given, fastest, kernels)
     torques = [sum(parts.values()) for parts, _, _ in found]
     names = dict.fromkeys(_PARTS.values())
     return SpeedCurve(
@@ -149,7 +149,8 @@ def stribeck(
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
         note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
-        + (", load of the machine at t = 0" if is_machine(source) else ""),
+        + (", load of the machine at t = 0" if is_machine(source) else "")
+        + ("" if model.rollers is None else f"; the equilibrium that continues the one at {fastest:.0f} 1/min"),
     )
 
 
@@ -185,26 +186,58 @@ def _bands(
 
 
 def _points(
-    model_at: Callable[[float], BearingModel], speeds: Sequence[float], kernels: Kernels
+    model_at: Callable[[float], BearingModel], speeds: Sequence[float], fastest: float, kernels: Kernels
 ) -> list[tuple[dict[str, float], float | None, float]]:
     """Return torque and Lambda at every speed.
 
-    A slow, skewed roller leans on a rib or runs free between both: rollers start from the next faster speed, where
-    films leave one equilibrium. Balls start anew at every speed.
+    A slow, skewed roller leans on a rib or runs free between both: rollers come from the fastest speed, where films
+    leave one equilibrium, by fixed speeds, so that no point depends on which others are asked for. Balls, and rollers
+    beyond that speed, start anew.
     """
+    found, slower = {}, sorted({speed for speed in speeds if speed < fastest}, reverse=True)
+    if model_at(speeds[0]).rollers is None:
+        slower = []
+    for speed in set(speeds).difference(slower):
+        found[speed] = _point(_anew(model_at, speed, kernels))
+    if slower:
+        near, at = _start(model_at, fastest, slower[0], kernels)
+        for speed in slower:
+            while at / _STRIDE >= speed:
+                near, at = _all_follow(model_at, kernels, near, at, at / _STRIDE), at / _STRIDE
+            found[speed] = _point(_all_follow(model_at, kernels, near, at, speed))
+    return [found[speed] for speed in speeds]
+
+
+def _anew(model_at: Callable[[float], BearingModel], speed: float, kernels: Kernels) -> dict[float, Any]:
+    """Return the equilibria at a speed by phase."""
     from lambda_core.solver.drivers.equilibrium import solve
 
-    found, near, faster = {}, dict[float, Any](), 0.0
-    for speed in sorted(set(speeds), reverse=True):
-        model = model_at(speed)
-        for phase in _PHASES:
-            start = near.get(phase)
-            if model.rollers is not None and start is not None:
-                near[phase] = _follow(model_at, kernels, start, faster, speed)
-            else:
-                near[phase] = solve(model, kernels, phase=phase)
-        found[speed], faster = _point(near), speed
-    return [found[speed] for speed in speeds]
+    model = model_at(speed)
+    return {phase: solve(model, kernels, phase=phase) for phase in _PHASES}
+
+
+def _start(
+    model_at: Callable[[float], BearingModel], fastest: float, first: float, kernels: Kernels
+) -> tuple[dict[float, Any], float]:
+    """Return equilibria to start from, and their speed.
+
+    It is the fastest, or the next one that has any: above the first speed asked for, or that itself.
+    """
+    at = fastest
+    while True:
+        try:
+            return _anew(model_at, at, kernels), at
+        except SolverError:
+            if at == first:
+                raise
+            at = max(at / _STRIDE, first)
+
+
+def _all_follow(
+    model_at: Callable[[float], BearingModel], kernels: Kernels, near: Mapping[float, Any], faster: float, speed: float
+) -> dict[float, Any]:
+    """Return the equilibria at a speed, from those at a faster one."""
+    return {phase: _follow(model_at, kernels, start, faster, speed) for phase, start in near.items()}
 
 
 def _follow(model_at: Callable[[float], BearingModel], kernels: Kernels, near: Any, faster: float, speed: float) -> Any:
