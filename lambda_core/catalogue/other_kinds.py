@@ -1,4 +1,4 @@
-"""Recognise kinds of bearings that the program does not simulate, by their designations."""
+"""Recognise designations of bearings that are not simulated."""
 
 from __future__ import annotations
 

@@ -236,7 +236,7 @@ def _start(
 def _all_follow(
     model_at: Callable[[float], BearingModel], kernels: Kernels, near: Mapping[float, Any], faster: float, speed: float
 ) -> dict[float, Any]:
-    """Return the equilibria at a speed, from those at a faster one."""
+    """Follow equilibria to a slower speed."""
     return {phase: _follow(model_at, kernels, start, faster, speed) for phase, start in near.items()}
 
 
