@@ -102,7 +102,8 @@ def dynamic_equivalent_load(
     It follows ISO 281:2007, 5.3 and table 3.
 
     P = F_r for F_a/F_r <= e, else X F_r + Y F_a, with e and Y of radial contact (X = 0.56) and of 15 degrees
-    interpolated in f_0 F_a/C_0r (outside the table its first or last column, as the standard allows no extrapolation).
+    interpolated in f_0 F_a/C_0r, at 15 degrees times the number i of rows, which C_0r counts (outside the table its
+    first or last column, as the standard allows no extrapolation).
     Between the tabled contact angles all three are linear in the angle, between 0 and 15 degrees too.
 
     Parameters
@@ -116,7 +117,7 @@ def dynamic_equivalent_load(
         Y = 0.65 cot(alpha).
     """
     angle = math.degrees(contact_angle)
-    limit, radial_factor, axial_factor = _factors(static_factor * axial_load / static_rating, angle)
+    limit, radial_factor, axial_factor = _factors(static_factor * axial_load / static_rating, angle, rows)
     below = 0.0
     if on_sphere:
         slope = math.tan(contact_angle)
@@ -129,24 +130,25 @@ def dynamic_equivalent_load(
     return EquivalentLoad(radial_factor * radial_load + axial_factor * axial_load, radial_factor, axial_factor, limit)
 
 
-def _factors(relative: float, angle: float) -> tuple[float, float, float]:
+def _factors(relative: float, angle: float, rows: int) -> tuple[float, float, float]:
     """Return e, X and Y of one row.
 
-    The row belongs to a ball bearing of a contact angle [deg].
+    The row belongs to a ball bearing of a contact angle [deg] and some rows.
     """
     radial = (
         _interpolate(relative, _RELATIVE_AXIAL, _LIMIT),
         _RADIAL_FACTOR,
         _interpolate(relative, _RELATIVE_AXIAL, _AXIAL_FACTOR),
     )
+    of_row = rows * relative
     fifteen = (
-        _interpolate(relative, _RELATIVE_15, _LIMIT_15),
+        _interpolate(of_row, _RELATIVE_15, _LIMIT_15),
         _RADIAL_15,
-        _interpolate(relative, _RELATIVE_15, _AXIAL_15),
+        _interpolate(of_row, _RELATIVE_15, _AXIAL_15),
     )
-    rows = [(0.0, *radial), (15.0, *fifteen), *_STEEP]
-    angles = [row[0] for row in rows]
-    e, x, y = (_interpolate(angle, angles, [row[i] for row in rows]) for i in (1, 2, 3))
+    table = [(0.0, *radial), (15.0, *fifteen), *_STEEP]
+    angles = [line[0] for line in table]
+    e, x, y = (_interpolate(angle, angles, [line[i] for line in table]) for i in (1, 2, 3))
     return e, x, y
 
 

@@ -74,6 +74,23 @@ def test_equivalent_load_nearly_joins_at_the_limit(relative: float, limit: float
     assert above.load == pytest.approx(below.load, rel=0.013)
 
 
+# ISO 281:2007, table 3, two rows of 15 degrees: f_0 i F_a/C_0r, where C_0r is that of both; e, Y up to e, Y above it
+@pytest.mark.parametrize(
+    ("relative", "limit", "below", "above"),
+    [(0.178, 0.38, 1.65, 2.39), (0.714, 0.43, 1.46, 2.11), (1.43, 0.47, 1.34, 1.93), (7.14, 0.56, 1.12, 1.63)],
+)
+def test_factors_of_two_rows_of_15_degrees(relative: float, limit: float, below: float, above: float) -> None:
+    static, factor, angle = 40e3, 14.0, math.radians(15.0)
+    axial = relative * static / (2.0 * factor)
+    light = dynamic_equivalent_load(10.0 * axial, axial, static, factor, angle, rows=2)
+    thrust = dynamic_equivalent_load(0.0, axial, static, factor, angle, rows=2)
+    source, reason = "ISO 281:2007, table 3, two rows", "two printed digits, and those of one row"
+    Published(limit, source, reason, abs=1e-9).check(light.limit)
+    Published(below, source, "0.625/e, where e has two digits", abs=0.015).check(light.axial_factor)
+    Published(0.72, source, reason, abs=0.009).check(thrust.radial_factor)
+    Published(above, source, reason, abs=0.009).check(thrust.axial_factor)
+
+
 def test_static_equivalent_load() -> None:
     # ISO 76:2006, table 2
     assert static_equivalent_load(1000.0, 200.0) == 1000.0
