@@ -7,6 +7,7 @@ import os
 import signal
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ from lambda_cli.main import main
 from warm import PROGRAM
 
 from lambda_core import api
+from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
     from warm import Started, Warm
@@ -215,11 +217,25 @@ def test_a_limit_of_wall_time_holds_for_one_start(capsys: pytest.CaptureFixture[
     same(growing("part.h5"), growing("whole.h5"))
 
 
+@pytest.mark.parametrize("command", ["run", "resume"])
+def test_limits_of_the_command_line_reach_the_run(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
+
+    def note(*given: object, **_: object) -> None:
+        asked.extend(given)
+        raise UsageError("noted")
+
+    for name in ("check", "resume"):
+        monkeypatch.setattr(api, name, note)
+    monkeypatch.setattr(api, "result", lambda _: SimpleNamespace(headline=""))
+    assert main([command, CASE, "--duration", "12 ms", "--max-wall", "1 min", "--quiet"]) == 2
+    assert asked[1] == ["solver.duration=12 ms", "solver.max_wall=1 min"]
+
+
 def test_resume_refuses_what_would_be_another_run(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     main(["run", CASE, *SHORT, "--out", "r.h5", "--quiet"])
-    from lambda_core.domain.errors import UsageError
     from lambda_core.runs import launch
 
     with pytest.raises(UsageError, match=r"resolves to other values: .*solver\.tolerance"):

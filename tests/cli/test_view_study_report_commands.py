@@ -17,6 +17,7 @@ from lambda_cli import main
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
+    from lambda_core.studies.folders import StudyStatus
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -174,16 +175,41 @@ def test_failed_points_end_with_5(call: Call, tmp_path: Path) -> None:
     assert "1 of 2 points have no result" in err
 
 
+def status_of(**counts: int) -> StudyStatus:
+    from lambda_core.studies.folders import StudyStatus
+
+    status = StudyStatus(
+        name="pair", title="pair", folder="pair", mode="dynamic", design="grid", points=2, done=0, partial=0, failed=0,
+        pending=0, worker_seconds=1.0, wall_s=1.0, parallel_efficiency=None, reasons=[], best=None, message="",
+    )  # fmt: skip
+    return status.model_copy(update=counts)
+
+
+@pytest.mark.parametrize(
+    ("counts", "code", "words"),
+    [
+        ({"done": 2}, 0, ""),
+        ({"done": 1, "partial": 1}, 5, "1 of 2 points have not converged"),
+        ({"failed": 1, "partial": 1}, 5, "1 of 2 points have no result; 1 of 2 points have not converged"),
+    ],
+)
+def test_a_study_of_unconverged_points_is_a_partial_result(
+    call: Call, monkeypatch: pytest.MonkeyPatch, counts: dict[str, int], code: int, words: str
+) -> None:
+    from lambda_core import api
+
+    monkeypatch.setattr(api, "study_resume", lambda *_, **__: status_of(**counts), raising=False)
+    ended, _, err = call("study", "resume", "pair", "--quiet")
+    assert ended == code
+    assert words in err
+
+
 def test_points_that_wait_for_another_process_are_no_interruption(
     call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from lambda_core import api
-    from lambda_core.studies.folders import StudyStatus
 
-    status = StudyStatus(
-        name="pair", title="pair", folder="pair", mode="dynamic", design="grid", points=2, done=1, partial=0, failed=0,
-        pending=1, worker_seconds=1.0, wall_s=1.0, parallel_efficiency=None, reasons=[], best=None, message="",
-    )  # fmt: skip
+    status = status_of(done=1, pending=1)
     monkeypatch.setattr(api, "study_resume", lambda *_, **__: status, raising=False)
     code, _, err = call("study", "resume", "pair", "--quiet")
     assert code == 5

@@ -120,6 +120,19 @@ def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path,
     catalogue.close()
 
 
+def test_a_writer_holds_the_write_lock_before_its_first_row(user_folder: Path) -> None:
+    """Keep a second writer out from the beginning.
+
+    A transaction that first reads fails where another has written before it writes.
+    """
+    engine = user.open_user_database(user_database())
+    with contextlib.closing(sqlite3.connect(user_database(), timeout=0.0, isolation_level=None)) as other:
+        with engine.begin(), pytest.raises(sqlite3.OperationalError, match="locked"):
+            other.execute("BEGIN IMMEDIATE")
+        other.execute("BEGIN IMMEDIATE")
+    engine.dispose()
+
+
 def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
     add_row(catalogue, "bearing", ROW)
     other = open_catalogue()

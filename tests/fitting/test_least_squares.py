@@ -12,6 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.fitting.least_squares import Data, fit
 from lambda_core.fitting.next_point import next_point
 from lambda_core.fitting.parameters import Parameter
+from lambda_core.fitting.uncertainty import robust_factor
 
 from . import certified as C
 from . import synthetic as S
@@ -197,3 +198,12 @@ def test_the_next_point_separates_what_the_data_do_not() -> None:
 def test_too_few_points_are_refused() -> None:
     with pytest.raises(ValueError, match="vary fewer parameters or add operating points"):
         fit(C.misra, S.PARAMETERS, Data(np.ones(3), np.ones(3)))
+
+
+def test_the_covariance_counts_free_residuals_and_outliers() -> None:
+    """Compare its factor with Huber and Ronchetti 2009, eq. 7.81.
+
+    Of eight residuals and two parameters two lie outside 1.5: K = 1 + 2/8 0.25/0.75 = 13/12.
+    """
+    residuals = np.array([0.5, -0.5, 0.5, -0.5, 1.0, -1.0, 3.0, -3.0])
+    assert robust_factor(residuals, 2, 1.5) == pytest.approx((13 / 12) ** 2 * (7.5 / 6) / 0.75**2)

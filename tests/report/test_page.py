@@ -6,6 +6,7 @@ import re
 from concurrent.futures import Executor, Future
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -15,7 +16,8 @@ from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.number_text import percent, plus_minus
-from lambda_core.export.report import pdf
+from lambda_core.domain.unit_systems import SI
+from lambda_core.export.report import chapters, pdf
 from lambda_core.export.report.gallery import stem_of
 from lambda_core.export.report.page import APPENDICES
 from lambda_core.model.machine_templates import geared_shaft
@@ -245,6 +247,20 @@ def test_several_results_stand_in_one_document(radial_run: Result, tmp_path: Pat
     page = Page(api.report([radial_run, radial_run.path], tmp_path / "two.html").read_text(encoding="utf-8"))
     assert page.text.count("Loads, lives, losses") == 2
     assert page.text.index("friction torque N mm") < page.text.index("Loads, lives, losses")
+
+
+def test_each_bearing_of_a_run_is_reported_with_its_own_geometry(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(chapters, "_geometry", lambda model: model)
+    monkeypatch.setattr(chapters, "_carried", lambda _: ())
+    monkeypatch.setattr(chapters, "bearing_part", lambda found, geometry, *, name, **_: (found, geometry, name))
+    machine: Any = SimpleNamespace(
+        is_machine=True,
+        bearing_names=["left", "right"],
+        summary=lambda: SimpleNamespace(bearings={"left": 1.0, "right": 2.0}),
+        of_bearing=lambda name: SimpleNamespace(model=f"geometry of {name}"),
+    )
+    parts = chapters.run_bearings(machine, SI)
+    assert parts == ((1.0, "geometry of left", "left"), (2.0, "geometry of right", "right"))
 
 
 def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None:

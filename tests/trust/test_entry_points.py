@@ -193,6 +193,13 @@ def test_c4_spreadsheets_compute_nothing_and_rows_come_back() -> None:
     assert printable("a\tb\nµ") == "a\tb\nµ"
 
 
+@pytest.mark.parametrize(
+    "sign", ["\x00", "\x07", "\r", "\x1b", "\x7f", "\x80", "\x9b", "\x9f", "\u202e", "\u2069", "\udc9b"]
+)
+def test_c4_what_drives_a_terminal_is_escaped(sign: str) -> None:
+    assert printable(f"a{sign}b") == "a" + sign.encode("unicode_escape").decode().replace("\\r", "\\x0d") + "b"
+
+
 def test_c4_exported_rows_hold_no_formula(tmp_path: Path, user_folder: Path) -> None:
     from lambda_db.transfer import _write_csv
 
