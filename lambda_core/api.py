@@ -70,6 +70,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.export.stiffness import stiffness_target
     from lambda_core.fitting.api import add_measured, fitted_case, measured_series, with_measured
     from lambda_core.fitting.report import FitReport
+    from lambda_core.fitting.rows import FitProgress
     from lambda_core.model.api import draft, problems, templates
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.checks.describe import ValueReport, model_warnings, value_reports

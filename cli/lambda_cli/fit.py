@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import BearingOption, CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import (
+    BearingOption,
+    CaseArgument,
+    ForceOption,
+    JsonOption,
+    SetOption,
+    Units,
+    UnitsOption,
+    WorkersOption,
+)
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_folder, check_new
@@ -48,6 +57,7 @@ def fit(
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Write a page (.html or .pdf) about the fit.")
     ] = None,
+    workers: WorkersOption = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
@@ -79,6 +89,8 @@ def fit(
             bearing=bearing,
             predict=predict,
             sample=sample,
+            workers=workers,
+            progress=speaker.update,
             announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))

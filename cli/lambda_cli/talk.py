@@ -18,7 +18,9 @@ import typer
 from lambda_core.domain.wrapping import wrapped
 
 if TYPE_CHECKING:
-    from lambda_core.api import Progress, StudyProgress
+    from lambda_core.api import FitProgress, Progress, StudyProgress
+
+    AnyProgress = Progress | StudyProgress | FitProgress
 
 _LINE_AFTER = 5.0  # wall time between plain lines [s]
 
@@ -46,7 +48,7 @@ class Talk(Protocol):
     def say(self, text: str) -> None:
         """Say a sentence."""
 
-    def update(self, progress: Progress | StudyProgress) -> None:
+    def update(self, progress: AnyProgress) -> None:
         """Take where the run stands."""
 
     def __enter__(self) -> Talk: ...
@@ -82,7 +84,7 @@ class Silence:
     def say(self, text: str) -> None:
         """Say a sentence."""
 
-    def update(self, progress: Progress | StudyProgress) -> None:
+    def update(self, progress: AnyProgress) -> None:
         """Take where the run stands."""
 
     def __enter__(self) -> Talk:
@@ -104,7 +106,7 @@ class JsonLines(Silence):
         """Write a message."""
         self._write({"event": "message", "text": text})
 
-    def update(self, progress: Progress | StudyProgress) -> None:
+    def update(self, progress: AnyProgress) -> None:
         """Write where the run stands."""
         self._write({"event": "progress", **progress.model_dump(mode="json")})
 
@@ -122,7 +124,7 @@ class Lines(Silence):
         """Write a line."""
         print(text, file=sys.stderr, flush=True)
 
-    def update(self, progress: Progress | StudyProgress) -> None:
+    def update(self, progress: AnyProgress) -> None:
         """Write a line every few seconds."""
         now = time.monotonic()
         if now - self._last >= _LINE_AFTER:
@@ -158,7 +160,7 @@ class Bar(Silence):
             for line in wrapped(text.splitlines(), self._console.width):
                 self._console.print(line, soft_wrap=True)
 
-    def update(self, progress: Progress | StudyProgress) -> None:
+    def update(self, progress: AnyProgress) -> None:
         """Move the bar."""
         state = f"{_state(progress)}  {_clock(progress.left_s)} left"
         self._bar.update(self._task, description="running", total=100.0, completed=progress.percent, state=state)
@@ -173,10 +175,13 @@ class Bar(Silence):
         self._bar.stop()
 
 
-def _state(progress: Progress | StudyProgress) -> str:
+def _state(progress: AnyProgress) -> str:
     """Write revolutions and torque, or points, in a few words."""
-    from lambda_core.api import StudyProgress
+    from lambda_core.api import FitProgress, StudyProgress
 
+    if isinstance(progress, FitProgress):
+        error = "" if progress.error_pct is None else f"  error {progress.error_pct:.2g} %"
+        return f"{progress.solved} points{error}"
     if isinstance(progress, StudyProgress):
         failed = f", {progress.failed} failed" if progress.failed else ""
         return f"{progress.done}/{progress.points} points{failed}"

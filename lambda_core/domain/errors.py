@@ -6,6 +6,7 @@ import difflib
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 _PRINTED = 20  # problems of a case; `problems` holds all
 _OPTION = re.compile(r"lambda-bearing [^;,()]*|(?<![\w-])--([a-z][a-z-]*)")  # commands first: they are none
@@ -84,6 +85,10 @@ class CaseError(LambdaError):
         rest = [f"  and {count - _PRINTED} more"] if count > _PRINTED else []
         super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems[:_PRINTED]), *rest]))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how another process makes it again."""
+        return type(self), (self.source, self.problems)
+
 
 class CatalogueError(CaseError):
     """Catalogue request that cannot be answered.
@@ -107,6 +112,10 @@ class EquilibriumError(SolverError):
     def __init__(self, sentence: str, step: float) -> None:
         super().__init__(sentence)
         self.step = step
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how another process makes it again."""
+        return type(self), (str(self), self.step)
 
 
 class PartialResultError(LambdaError):

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from lambda_core.fitting.measured import MeasuredComparison, MeasuredSeries
     from lambda_core.fitting.measurements import Measurements
     from lambda_core.fitting.report import FitReport
+    from lambda_core.fitting.rows import FitProgress
     from lambda_core.fitting.traction_curve import TractionCurve
     from lambda_core.views.chart import ViewData
 
@@ -29,7 +30,8 @@ def fit(
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
     sample: int = 0,
-    progress: Callable[[int, float], None] | None = None,
+    workers: int | None = 1,
+    progress: Callable[[FitProgress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> FitReport:
     """Fit parameters of a case to measured operating points.
@@ -54,8 +56,10 @@ def fit(
         Look for the operating point to measure next.
     sample : int
         Number of samples of the posterior to draw, with the extra ``lambda-bearing[sampling]``.
+    workers : int, optional
+        Processes that solve the operating points of more than 48 lines; None: one for every core.
     progress : callable, optional
-        Called with the number of operating points solved and the error of the best values so far [%].
+        Called with points solved, error of the best values so far and time left, while the values are searched.
     announce : callable, optional
         Called with sentences about the progress.
 
@@ -73,7 +77,7 @@ def fit(
 
     return fit_report(
         source, measured, vary, overrides, bearing=bearing, predict=predict, suggest=suggest, sample=sample,
-        progress=progress, announce=announce,
+        workers=workers, progress=progress, announce=announce,
     )  # fmt: skip
 
 

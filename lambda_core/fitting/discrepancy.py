@@ -12,7 +12,8 @@ References
 ----------
 Kennedy and O'Hagan 2001, J. R. Statist. Soc. B 63, 425 (model discrepancy as a Gaussian process); Brynjarsdottir and
 O'Hagan 2014, Inverse Problems 30, 114007 (its size needs prior knowledge); Gelman 2006, Bayesian Analysis 1, 515
-(half-normal prior of a standard deviation).
+(half-normal prior of a standard deviation); Quinonero-Candela and Rasmussen 2005, J. Mach. Learn. Res. 6, 1939
+(a subset of the values in place of all).
 """
 
 from __future__ import annotations
@@ -25,11 +26,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.analysis.band.neighbours import spread_out
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.fitting.parameters import Parameter
 
 # Sizes over that known beforehand: midpoints of equally likely parts of a half-normal distribution.
 _PARTS = 12
+_MOST = 200  # measured values that decide the errors of laws: the work grows with the third power
 # Reach in ratios of conditions, e-folds: laws of friction and film are powers of speed and load, so an error of a law
 # changes by its own size over about one. Log-uniform over a factor of four both ways.
 _REACHES = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -157,29 +160,56 @@ def predict(
     -------
     Prediction
     """
+    from scipy.linalg import solve_triangular
+
+    if measured.size > _MOST:
+        rows = _far_apart(at.coordinates)
+        at, measured, errors = _rows(at, rows), measured[rows], errors[rows]
     before, spread = _known_before(parameters)
     offset = before - values
     both = _joined(at, asked)
     # points that are fitted exactly still have a covariance
     floor = _LEAST_ERROR * np.maximum(np.abs(measured), _LEAST_ERROR * np.abs(measured).max())
-    count, deviation = measured.size, np.concatenate([np.maximum(errors, floor), np.zeros(asked.predicted.size)])
+    count = measured.size
     mean = both.predicted + both.jacobian @ offset
     linear = both.jacobian * spread
-    known = linear @ linear.T + np.diag(deviation**2)
-    size, apart = np.abs(both.predicted) * both.sizes, _beyond(at.coordinates, asked.coordinates)
+    known = linear[:count] @ linear.T
+    known[:, :count] += np.diag(np.maximum(errors, floor) ** 2)
+    size = np.abs(both.predicted) * both.sizes
+    apart = _beyond(at.coordinates, asked.coordinates)[:count]
+    products = np.outer(size[:count], size)
+    alone, own_size = np.sum(linear[count:] ** 2, axis=1) + np.asarray(asked_errors) ** 2, size[count:] ** 2
     residual = measured - mean[:count]
     logs, means, deviations = [], [], []
-    for factor, reaches in _grid(both.coordinates.shape[1]):
-        kernel = np.where(apart, 0.0, _kernel(both, reaches))
-        total = known + factor**2 * np.outer(size, size) * kernel
-        own = np.linalg.cholesky(total[:count, :count])
-        whitened = np.linalg.solve(own, np.column_stack([residual, total[:count, count:]]))
-        logs.append(-0.5 * float(whitened[:, 0] @ whitened[:, 0]) - float(np.log(np.diag(own)).sum()))
-        means.append(mean[count:] + whitened[:, 1:].T @ whitened[:, 0])
-        variance = np.diag(total)[count:] - np.sum(whitened[:, 1:] ** 2, axis=0) + np.asarray(asked_errors) ** 2
-        deviations.append(np.sqrt(np.maximum(variance, 0.0)))
+    factors, every_reach = _grid(both.coordinates.shape[1])
+    for reaches in every_reach:
+        kernel = products * np.where(apart, 0.0, _kernel(both, count, reaches))
+        for factor in factors:
+            total = known + factor**2 * kernel
+            own = np.linalg.cholesky(total[:, :count])
+            whitened = solve_triangular(own, np.column_stack([residual, total[:, count:]]), lower=True)
+            logs.append(-0.5 * float(whitened[:, 0] @ whitened[:, 0]) - float(np.log(np.diag(own)).sum()))
+            means.append(mean[count:] + whitened[:, 1:].T @ whitened[:, 0])
+            variance = alone + factor**2 * own_size - np.sum(whitened[:, 1:] ** 2, axis=0)
+            deviations.append(np.sqrt(np.maximum(variance, 0.0)))
     weights = np.exp(np.array(logs) - max(logs))
     return Prediction(weights / weights.sum(), np.array(means), np.array(deviations))
+
+
+def _far_apart(places: FloatArray) -> NDArray[np.int64]:
+    """Return the rows that decide the errors of laws.
+
+    First those that lie far apart, then, where places repeat, others at even distances.
+    """
+    chosen = spread_out(places, _MOST)
+    others = np.setdiff1d(np.arange(len(places)), chosen)
+    more = others[np.linspace(0, others.size - 1, _MOST - len(chosen)).astype(np.int64)]
+    return np.sort(np.concatenate([np.array(chosen, dtype=np.int64), more]))
+
+
+def _rows(place: Place, rows: NDArray[np.int64]) -> Place:
+    kinds = tuple(place.kinds[row] for row in rows)
+    return Place(place.predicted[rows], place.jacobian[rows], place.coordinates[rows], kinds, place.sizes[rows])
 
 
 def _known_before(parameters: Sequence[Parameter]) -> tuple[FloatArray, FloatArray]:
@@ -218,7 +248,7 @@ def _beyond(measured: FloatArray, asked: FloatArray) -> NDArray[np.bool_]:
     return found
 
 
-def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
+def _grid(dimensions: int) -> tuple[list[float], list[FloatArray]]:
     """Return sizes and reaches of the discrepancy.
 
     Sizes are relative to those known beforehand. Each condition has a reach, and errors of different laws have both.
@@ -227,17 +257,18 @@ def _grid(dimensions: int) -> list[tuple[float, FloatArray]]:
 
     middles = (np.arange(_PARTS) + 0.5) / _PARTS
     reaches = [np.array(each) for each in itertools.product(_REACHES, repeat=dimensions)]
-    return [(float(size), reach) for size in ndtri(0.5 + 0.5 * middles) for reach in reaches]
+    return ndtri(0.5 + 0.5 * middles).tolist(), reaches
 
 
-def _kernel(place: Place, reaches: FloatArray) -> FloatArray:
-    """Return the correlations of the discrepancy.
+def _kernel(place: Place, count: int, reaches: FloatArray) -> FloatArray:
+    """Return correlations of the first values with all.
 
     They are squared exponentials, and 0 between different quantities.
     """
-    apart = (place.coordinates[:, None, :] - place.coordinates[None, :, :]) / reaches
-    same = np.array([[one == other for other in place.kinds] for one in place.kinds])
-    found: FloatArray = np.where(same, np.exp(-0.5 * np.sum(apart**2, axis=-1)), 0.0)
+    scaled = place.coordinates / reaches
+    apart = np.sum((scaled[:count, None, :] - scaled[None, :, :]) ** 2, axis=-1)
+    kinds = np.unique(np.array(place.kinds), return_inverse=True)[1]
+    found: FloatArray = np.where(kinds[:count, None] == kinds[None, :], np.exp(-0.5 * apart), 0.0)
     return found
 
 

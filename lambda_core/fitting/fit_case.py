@@ -35,17 +35,19 @@ from lambda_core.fitting.report import (
     SuggestedPoint,
     known,
 )
+from lambda_core.fitting.rows import FitProgress, Rows, Watch
 from lambda_core.fitting.sampling import check_count
 from lambda_core.fitting.sampling import sample as sample_posterior
 from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
+from lambda_core.studies.pool import usable_cores
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
 
 Announce = Callable[[str], None]
-Progress = Callable[[int, float], None]
+Progress = Callable[[FitProgress], None]
 
 
 def fit_report(
@@ -58,6 +60,7 @@ def fit_report(
     predict: str | Path | Measurements | None = None,
     suggest: bool = True,
     sample: int = 0,
+    workers: int | None = 1,
     progress: Progress | None = None,
     announce: Announce | None = None,
 ) -> FitReport:
@@ -70,12 +73,32 @@ def fit_report(
     subject = subject_of(source, overrides, bearing)
     data = _read(measured, subject)
     unseen = None if predict is None else _read(predict, subject)
-    problem = CaseProblem(subject, data, [subject.varied(text) for text in vary])
+    rows = Rows(subject, workers or usable_cores())
+    try:
+        report = _fitted(subject, data, unseen, vary, rows, suggest, sample, progress, announce)
+    finally:
+        rows.close()
+    return report.model_copy(update={"seconds": time.perf_counter() - begin})
+
+
+def _fitted(
+    subject: Subject,
+    data: Measurements,
+    unseen: Measurements | None,
+    vary: Sequence[str],
+    rows: Rows,
+    suggest: bool,
+    sample: int,
+    progress: Progress | None,
+    announce: Announce | None,
+) -> FitReport:
+    """Return the report, without its time."""
+    problem = CaseProblem(subject, data, [subject.varied(text) for text in vary], rows)
     if announce is not None:
         announce(f"fitting to {len(problem.entries)} measured values; parameters: {len(problem.parameters)}")
     try:
         found = fit_values(
-            problem.predict if progress is None else _reporting(problem, progress),
+            problem.predict if progress is None else _reporting(problem, rows, progress),
             problem.parameters,
             problem.data,
             jacobian=problem.jacobian,
@@ -92,7 +115,7 @@ def fit_report(
     except KeyboardInterrupt:
         found = replace(found, is_interrupted=True)
     report = _report(subject, data, problem, found, rest.pop("suggestion"), rest.pop("sizes"))
-    return report.model_copy(update={**rest, "seconds": time.perf_counter() - begin})
+    return report.model_copy(update=rest)
 
 
 def _read(source: str | Path | Measurements, subject: Subject) -> Measurements:
@@ -123,18 +146,16 @@ def _rest(
         yield "posterior", _posterior(problem, found, sample)
 
 
-def _reporting(problem: CaseProblem, progress: Progress) -> Model:
-    """Return a predictor that reports its progress.
-
-    It reports points solved and the error of the best values [%].
-    """
-    measured, best = problem.data.values, math.inf
+def _reporting(problem: CaseProblem, rows: Rows, progress: Progress) -> Model:
+    """Return a predictor that reports its progress."""
+    measured = problem.data.values
+    watch = Watch(problem.rows, len(problem.parameters), progress)
+    rows.heard = watch.heard
 
     def predict(values: FloatArray) -> FloatArray:
-        nonlocal best
         found = problem.predict(values)
-        best = min(best, 100.0 * _rms(relative(found - measured, measured)))
-        progress(problem.solved, best)
+        error = 100.0 * _rms(relative(found - measured, measured))
+        watch.error_pct = error if watch.error_pct is None else min(watch.error_pct, error)
         return found
 
     return predict
@@ -169,7 +190,7 @@ def _unseen(
     The fit has not used them.
     """
     asked = problem.elsewhere(data)
-    values, _, new = predicted(problem, found, sizes, asked)
+    values, new = predicted(problem, found, sizes, asked)
     return [
         PredictedPoint(
             **_where(subject, data, entry),
@@ -303,7 +324,7 @@ def _points(
     new = quantile * found.prediction_deviation(found.jacobian, found.errors)
     ends = np.column_stack([found.predicted - new, found.predicted + new])
     if sizes:
-        ends = predicted(problem, found, sizes)[2].band()
+        ends = predicted(problem, found, sizes)[1].band()
     standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
     return [
         FittedPoint(

@@ -83,7 +83,7 @@ class MachineSubject:
         self._tables = toml_tables(self._machine.case_toml, self._machine.name)
         if bearing is not None:
             bearing_number(self._machine, bearing)
-        self._bearing = bearing
+        self.case_toml, self.bearing = self._machine.case_toml, bearing
         names = [one.name for one in self._machine.bearings]
         self.name = self._machine.name if bearing is None else f"{self._machine.name}-{bearing}"
         self.title = self._machine.name if bearing is None else f"{bearing} of {self._machine.name}"
@@ -104,7 +104,7 @@ class MachineSubject:
         this one. Any other number of the machine needs a range.
         """
         name, equals, ends = specification.partition("=")
-        path, own = name.strip(), self._bearing
+        path, own = name.strip(), self.bearing
         for one in self._machine.bearings:
             if path.startswith(f"bearings.{one.name}."):
                 path, own = path.removeprefix(f"bearings.{one.name}."), one.name
@@ -165,7 +165,7 @@ class MachineSubject:
         """
         del one
         moved = [change for graded, number in parameters for change in graded.changes(number)]
-        point = _solved(self._machine.case_toml, (*changes, *moved))
+        point = _solved(self.case_toml, (*changes, *moved))
         return np.array([[self._read(point, name) for name in names]])
 
     def _read(self, point: MachinePoint, name: str) -> float:
@@ -183,7 +183,7 @@ class MachineSubject:
         Torques and losses of all bearings err together, as those of their laws do; how stiff and how loaded the machine
         is counts as known.
         """
-        point, found, own = _solved(self._machine.case_toml, tuple(changes)), {}, tuple(fitted)
+        point, found, own = _solved(self.case_toml, tuple(changes)), {}, tuple(fitted)
         sizes: dict[tuple[str, str], float] = {}
         for number, one in enumerate(point.model.bearings):
             wanted = [name for name in names if self._readers[name][0] in ("", one.name)]
@@ -214,7 +214,7 @@ class MachineSubject:
         wanted = sorted({kind for kind in kinds.values() if kind})
         if not wanted:
             return {}
-        point, found = _solved(self._machine.case_toml, tuple(changes)), {}
+        point, found = _solved(self.case_toml, tuple(changes)), {}
         each = bands_of_machine(point.model, point.state, wanted).bearings
         for name, kind in kinds.items():
             owner, _ = self._readers[name]

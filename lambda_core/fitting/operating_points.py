@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import OrderedDict
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -20,13 +19,13 @@ from lambda_core.domain.units import UNITS, from_si
 from lambda_core.domain.written_values import DIGITS
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.drivers.near_equilibrium import solve_near
+from lambda_core.solver.drivers.near_equilibrium import Beginning, beginning, solve_near
 from lambda_core.studies.job import kernels_of, resolve_point
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
-_KEPT = 256  # points
+_KEPT = 1024  # points; each takes 100 kB
 
 
 def condition_change(condition: Condition, value: float) -> str:
@@ -81,7 +80,7 @@ class OperatingPoints:
 
     def __init__(self, case_toml: str) -> None:
         self._toml = case_toml
-        self._points: OrderedDict[tuple[str, ...], _Point] = OrderedDict()
+        self._points: dict[tuple[str, ...], _Point] = {}
 
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
@@ -112,10 +111,10 @@ class OperatingPoints:
             model = resolve_point(self._toml, changes, is_static=True)
             if model.thermal is not None:
                 return None
-            self._points[changes] = _Point(model)
-            if len(self._points) > _KEPT:
-                self._points.popitem(last=False)
-        self._points.move_to_end(changes)
+            point = _Point(model)
+            if len(self._points) >= _KEPT:  # all rows come by in turn: those that are kept stay
+                return point
+            self._points[changes] = point
         return self._points[changes]
 
 
@@ -127,7 +126,7 @@ class _Point:
 
     def __init__(self, model: BearingModel) -> None:
         self.model = model
-        self._solved: dict[float, Equilibrium] = {}
+        self._solved: dict[float, Beginning] = {}
 
     def values(self, names: Sequence[str], moved: BearingModel | None = None, *, one: bool) -> FloatArray:
         """Return measured quantities as predicted.
@@ -139,9 +138,11 @@ class _Point:
 
         def solved(phase: float) -> Equilibrium:
             if phase not in self._solved:
-                self._solved[phase] = solve(self.model, kernels, phase=phase)
-            own = self._solved[phase]
-            return own if model is self.model else solve_near(model, own, kernels)
+                found = solve(self.model, kernels, phase=phase)
+                self._solved[phase] = beginning(found)
+                if model is self.model:
+                    return found
+            return solve_near(model, self._solved[phase], kernels)
 
         return read_values(solved, [READ[name] for name in names], one=one)
 

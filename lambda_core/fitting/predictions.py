@@ -31,13 +31,13 @@ def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
 
 def predicted(
     problem: CaseProblem, found: Fit, sizes: dict[str, float], asked: CaseProblem | None = None
-) -> tuple[FloatArray, Prediction, Prediction]:
+) -> tuple[FloatArray, Prediction]:
     """Predict points, by default those that were fitted.
 
     Returns
     -------
-    tuple of (float64[:], Prediction, Prediction)
-        Values by the fitted parameters alone; with all errors but those of a new measurement; with these.
+    tuple of (float64[:], Prediction)
+        Values by the fitted parameters alone; with all errors, those of a new measurement included.
     """
     everywhere = coordinates([*problem.conditions_of_entries(), *(asked or problem).conditions_of_entries()])
     count, errors = len(problem.entries), found.errors * found.scale
@@ -51,8 +51,8 @@ def predicted(
         there = _place(asked, values, slopes, everywhere[count:], sizes)
         own = asked.data.absolute(values) * (1.0 if asked.data.is_error_known else found.scale)
         new = np.sqrt(own**2 + asked.input_deviations(found.values) ** 2)
-    plain = (found.parameters, found.values, found.data.values, errors / np.sqrt(weights), at, there)
-    return there.predicted, predict(*plain), predict(*plain, new)
+    measured = found.data.values
+    return there.predicted, predict(found.parameters, found.values, measured, errors / np.sqrt(weights), at, there, new)
 
 
 def _place(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from lambda_core.fitting.least_squares import Data
 from lambda_core.fitting.measurements import Measurements
 from lambda_core.fitting.operating_points import at_line, condition_change
 from lambda_core.fitting.parameters import Parameter
+from lambda_core.fitting.rows import Asked, Rows
 from lambda_core.fitting.subjects import Subject
 
 _STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
@@ -48,10 +49,15 @@ class CaseProblem:
         What was measured.
     varied : sequence of Graded
         Parameters of the fit.
+    rows : Rows, optional
+        Solves the operating points; by default in this process.
     """
 
-    def __init__(self, subject: Subject, measurements: Measurements, varied: Sequence[Graded]) -> None:
+    def __init__(
+        self, subject: Subject, measurements: Measurements, varied: Sequence[Graded], rows: Rows | None = None
+    ) -> None:
         self._subject, self._measurements, self.varied = subject, measurements, tuple(varied)
+        self._rows = rows or Rows(subject)
         _refuse_twice(self.varied, measurements)
         _refuse_zeros(measurements, subject)
         self.parameters = [_parameter(graded) for graded in self.varied]
@@ -70,6 +76,11 @@ class CaseProblem:
             for row in range(len(measurements))
         ]
         self._known: dict[tuple[str | float, ...], FloatArray] = {}
+
+    @property
+    def rows(self) -> int:
+        """Operating points that were measured."""
+        return len(self._measurements)
 
     @property
     def solved(self) -> int:
@@ -169,7 +180,7 @@ class CaseProblem:
 
     def elsewhere(self, measurements: Measurements) -> CaseProblem:
         """Return the same problem for other measurements."""
-        return CaseProblem(self._subject, measurements, self.varied)
+        return CaseProblem(self._subject, measurements, self.varied, self._rows)
 
     def candidates(self) -> list[dict[str, float]]:
         """Return operating points for the next measurement.
@@ -194,25 +205,24 @@ class CaseProblem:
         quantity, found = self.entries[0].quantity, np.full((len(points), 1 + len(self.parameters)), math.nan)
         for row, conditions in enumerate(points):
             try:
-                base = float(self._value(values, conditions, (quantity,), one=True)[0])
+                base = self._value(values, conditions, quantity)
                 found[row, 0] = base
                 for index, parameter in enumerate(self.parameters):
                     step = _STEP * parameter.spread
                     moved = values.copy()
                     moved[index] += -step if values[index] + step > parameter.high else step
-                    new = float(self._value(moved, conditions, (quantity,), one=True)[0])
+                    new = self._value(moved, conditions, quantity)
                     found[row, 1 + index] = (new - base) / (moved[index] - values[index])
             except LambdaError:
                 found[row] = math.nan
         return found
 
     def _stacked(self, values: FloatArray, conditions: Sequence[dict[str, float]], *, one: bool = False) -> FloatArray:
+        asked = [Asked(self._changes(at), names) for at, names in zip(conditions, self._asked, strict=True)]
         answers = []
-        for row, at in enumerate(conditions):
-            try:
-                found = self._value(values, at, self._asked[row], one=one)
-            except LambdaError as error:
-                raise at_line(error, self._measurements.name, self._measurements.lines[row]) from None
+        for row, found in enumerate(self._solved(values, asked, one=one)):
+            if isinstance(found, LambdaError):
+                raise at_line(found, self._measurements.name, self._measurements.lines[row]) from None
             answers.append(dict(zip(self._asked[row], found.tolist(), strict=True)))
         return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
 
@@ -223,25 +233,41 @@ class CaseProblem:
         """
         return tuple(condition_change(self._measurements.set_by[name], value) for name, value in conditions.items())
 
-    def _value(
-        self, values: FloatArray, conditions: dict[str, float], names: tuple[str, ...], *, one: bool
-    ) -> FloatArray:
-        """Return the quantities at one operating point.
+    def _value(self, values: FloatArray, conditions: dict[str, float], quantity: str) -> float:
+        """Return a quantity at one operating point and one position."""
+        (found,) = self._solved(values, [Asked(self._changes(conditions), (quantity,))], one=True)
+        if isinstance(found, LambdaError):
+            raise found
+        return float(found[0])
+
+    def _solved(self, values: FloatArray, asked: Sequence[Asked], *, one: bool) -> Iterator[FloatArray | LambdaError]:
+        """Yield the quantities at operating points.
 
         Equal points are computed once.
         """
-        changes, numbers = self._changes(conditions), values.tolist()
-        key = (*changes, *numbers, *names)
-        for kind in ("all", "one") if one else ("all",):
-            if (kind, *key) in self._known:
-                found = self._known[kind, *key]
-                break
-        else:
-            parameters = list(zip(self.varied, numbers, strict=True))
-            found = self._subject.values(changes, parameters, names, one=one)
-            self._known["one" if one else "all", *key] = found
-        mean: FloatArray = found[: 1 if one else None].mean(axis=0)
-        return mean
+        numbers = values.tolist()
+        kinds = ("all", "one") if one else ("all",)
+
+        def known(row: Asked) -> FloatArray | None:
+            keys = ((kind, *row.changes, *numbers, *row.names) for kind in kinds)
+            return next((self._known[key] for key in keys if key in self._known), None)
+
+        missing = [row for row in dict.fromkeys(asked) if known(row) is None]
+        parameters = list(zip(self.varied, numbers, strict=True))
+        wrong: dict[Asked, LambdaError] = {}
+        # the answers end with the first error
+        for row, found in zip(missing, self._rows.solve(parameters, missing, one=one), strict=False):
+            if isinstance(found, LambdaError):
+                wrong[row] = found
+            else:
+                self._known[kinds[-1], *row.changes, *numbers, *row.names] = found
+        for row in asked:
+            if row in wrong:
+                yield wrong[row]
+                return
+            answer = known(row)
+            assert answer is not None  # rows before the first error are solved
+            yield answer[: 1 if one else None].mean(axis=0)
 
 
 def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:

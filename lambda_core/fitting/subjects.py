@@ -44,6 +44,8 @@ class Subject(Protocol):
     name: str
     title: str
     words: Vocabulary
+    case_toml: str  # of which another process makes the same
+    bearing: str | None
 
     def varied(self, specification: str) -> Graded:
         """Return the named parameter.
@@ -99,8 +101,9 @@ class BearingSubject:
         from lambda_core.model.checking import resolve
 
         self.model = resolve(case, is_static=True)
-        self._toml = standalone_toml(case)
-        self._points = OperatingPoints(self._toml)
+        self.case_toml = standalone_toml(case)
+        self.bearing: str | None = None
+        self._points = OperatingPoints(self.case_toml)
         self.name, self.title = self.model.name, self.model.title
         is_computed = case.operation.temperatures == "computed"
         self.words = _of_one(MEASURED, Case, TEMPERATURES if is_computed else ())
@@ -117,13 +120,13 @@ class BearingSubject:
 
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""
-        model = ready_model(resolve_point(self._toml, tuple(changes), is_static=True), is_static=True)
+        model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
         return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
 
     def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
         """Return both ends of each quantity's model band."""
         found = band_alone(
-            ready_model(resolve_point(self._toml, tuple(changes), is_static=True), is_static=True), names
+            ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True), names
         )
         return {one.quantity: [one.low, one.high] for one in found.bands}
 

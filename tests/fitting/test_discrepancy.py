@@ -110,3 +110,18 @@ def test_table_4_fitted_in_part_predicts_the_rest(seen: tuple[int, ...], held: i
     assert sum(point.is_inside for point in found.predictions) >= held
     assert all(50.0 * (p.band[1] - p.band[0]) / p.predicted < 30.0 for p in found.predictions)
     assert "points that the fit has not seen" in found.text()
+
+
+def test_a_long_file_has_the_errors_of_its_spread_points() -> None:
+    """Predict 450 equal points, twice as many as decide.
+
+    The work grew with the third power of all points, and with a loop over pairs.
+    """
+    x = np.tile([1.0, 2.0, 3.0], 150)
+    measured = 100.0 + 2.0 * np.log(x)
+    at, asked = place(x, 0.05), place(np.array([1.5]), 0.05)
+    found = predict([ONE], np.array([1.0]), measured, np.full(x.size, 3.0), at, asked, 3.0)
+    assert found.means.shape[1] == 1
+    low, high = found.band()[0]
+    assert low < 100.0 + 2.0 * np.log(1.5) < high
+    assert high - low < 4.0 * 3.5  # of new measurements with an error of 3

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import SPIN
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -21,9 +28,29 @@ from lambda_core.solver.drivers.equilibrium import (
 from lambda_core.solver.drivers.solver_context import assemble
 
 
+@dataclass(frozen=True)
+class Beginning:
+    """Keep what a search needs of an equilibrium.
+
+    Without the memory of the compiled code it takes a tenth of the place.
+    """
+
+    model: BearingModel
+    frame: ContactFrame
+    state: FloatArray
+    driven: NDArray[np.int64]
+    phase: float
+
+
+def beginning(found: Equilibrium) -> Beginning:
+    """Return where a search near an equilibrium begins."""
+    context = found.context
+    return Beginning(context.model, context.frame, found.state, context.driven.copy(), found.phase)
+
+
 def solve_near(
     model: BearingModel,
-    near: Equilibrium,
+    near: Equilibrium | Beginning,
     kernels: Kernels | None = None,
     *,
     is_of_laws: bool = True,
@@ -39,7 +66,7 @@ def solve_near(
 
     Parameters
     ----------
-    near : Equilibrium
+    near : Equilibrium or Beginning
         Of the same bearing under the same loads.
     is_of_laws : bool
         Whether only laws differ, or what only they see: then normal forces are as good as the same. Otherwise these are
@@ -52,9 +79,11 @@ def solve_near(
     SolverError
         As :func:`solve`.
     """
-    frame, kernels = near.context.frame, kernels or Kernels(model)
+    if isinstance(near, Equilibrium):
+        near = beginning(near)
+    frame, kernels = near.frame, kernels or Kernels(model)
     oils = derive_oils(model, kernels, frame)
-    check_laws(model, kernels, frame, oils, near.context.model)
+    check_laws(model, kernels, frame, oils, near.model)
     compiled, context = core(None), assemble(model, kernels, frame, oils)
     if context.size != near.state.size:
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
@@ -67,11 +96,11 @@ def solve_near(
             now, before = L.elements_in(context.bundle, state), L.elements_in(context.bundle, near.state)
             now["velocity"], now["spin"] = before["velocity"], before["spin"]
         are_balls = model.rollers is None
-        driven = near.context.driven if are_balls else None
+        driven = near.driven if are_balls else None
         report = continue_static(compiled, context, state, friction=True, is_near=are_balls, driven=driven)
     except SolverError:
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
-    if are_balls and (context.driven != near.context.driven).any():
+    if are_balls and (context.driven != near.driven).any():
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
     return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
 
