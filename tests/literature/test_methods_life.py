@@ -74,6 +74,14 @@ def test_equivalent_load_nearly_joins_at_the_limit(relative: float, limit: float
     assert above.load == pytest.approx(below.load, rel=0.013)
 
 
+@pytest.mark.parametrize(("angle", "edges"), [(0.0, (0.172, 6.89)), (math.radians(15.0), (0.178, 7.14))])
+def test_factors_are_held_beyond_the_table(angle: float, edges: tuple[float, float]) -> None:
+    for edge, beyond in zip(edges, (0.01, 20.0), strict=True):
+        at, outside = (dynamic_equivalent_load(0.0, x * 1e3, 14e3, 14.0, angle) for x in (edge, beyond))
+        assert outside.limit == pytest.approx(at.limit, rel=1e-12)
+        assert outside.axial_factor == pytest.approx(at.axial_factor, rel=1e-12)
+
+
 # ISO 281:2007, table 3, two rows of 15 degrees: f_0 i F_a/C_0r, where C_0r is that of both; e, Y up to e, Y above it
 @pytest.mark.parametrize(
     ("relative", "limit", "below", "above"),
