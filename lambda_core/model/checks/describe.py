@@ -45,7 +45,7 @@ class ModelReport(BaseModel):
     """
 
     version: Literal[1] = 1
-    valid: Literal[True] = Field(True, description="always true: an invalid case is an error")
+    valid: Literal[True] = Field(default=True, description="always true: an invalid case is an error")
     name: str
     title: str
     headline: list[str] = Field(description="lines that say what the model is")
