@@ -15,6 +15,7 @@ from lambda_core.elements.roller.roller_bearing import RIBS, RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance, single_contact_constant
 from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState, RollerFriction, friction
 from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.model.roller_case import friction_parameters
 
 RPM = math.pi / 30.0
 OIL = OilState(0.06, 870.0, 20e-9, 0.045, 0.13)
@@ -252,3 +253,15 @@ def test_light_rigid_contacts_have_martins_film() -> None:
 def test_asperities_carry_all_without_a_film() -> None:
     assert float(line_film.asperity_share(0.0, 1.9, 0.99)) == 1.0
     assert float(line_film.asperity_share(3.0, 1.9, 0.99)) < 0.005
+
+
+def test_an_oil_jet_drags_twice_as_much_as_a_bath_to_the_middle_of_the_lowest_roller() -> None:
+    """Drag rollers with a jet; they had no drag.
+
+    SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction.
+    """
+    bath, jet = (friction_parameters(TAPERED, 0.16e-6, way, 0.0) for way in ("oil bath", "oil jet"))
+    loads = [6e3, 3e3, 0.0, 0.0, 0.0]
+    dragged = torque(TAPERED, loads, 1500.0, bath).drag
+    assert dragged > 0.0
+    assert torque(TAPERED, loads, 1500.0, jet).drag == pytest.approx(2.0 * dragged)

@@ -89,6 +89,7 @@ class FrictionParameters:
     inlet_heat: float = 0.29  # Aihara 1987
     replenishment: float = 3e-8  # SKF's K_rs of oil bath at low level and oil jet; zero: flooded
     oil_height: float = 0.0  # H above the lowest point of the outer raceway [m]; zero: no bath
+    drag_factor: float = 1.0  # of the drag in a bath of that height
     e_eff: float = 226e9  # E' of steel on steel [Pa]
     rolling_law: str = "biboulet-houpert-line"  # of ROLLING_LAWS
     film_law: str = "moes-line"  # of FILM_LAWS
@@ -165,13 +166,14 @@ def friction(
     ribs = [_rib(rib, state.ribs[:, i], bearing, motion, oil, par) for i, rib in enumerate(bearing.ribs)]
     loaded = [rib for rib in ribs if rib is not None]
     worst = max(loaded, key=lambda rib: rib[3].p_max, default=None)
-    drag = bath_drag(bearing, abs(motion.relative), oil.kinematic, par.oil_height, SKF_CONSTANTS[skf_kind(bearing)])
+    constants = SKF_CONSTANTS[skf_kind(bearing)]
+    bath = bath_drag(bearing, abs(motion.relative), oil.kinematic, par.oil_height, constants)
     return RollerFriction(
         rolling={ring: heat * supply * part.rolling * per_speed for ring, part in found.items()},
         hysteresis={ring: part.hysteresis * per_speed for ring, part in found.items()},
         sliding={ring: part.sliding(heat * supply) * per_speed for ring, part in found.items()},
         rib=sum(rib[0] for rib in loaded) * per_speed,
-        drag=drag,
+        drag=par.drag_factor * bath,
         film={ring: part.film for ring, part in found.items()},
         film_parameter={
             ring: float(np.nanmin(part.film)) / par.raceway_roughness if np.any(loads[ring] > 0.0) else math.nan
