@@ -306,7 +306,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         line(
             "inner ring",
             *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
-            f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad",
+            f"tilt y {tilt_y:z.4f}  z {tilt_z:z.4f} mrad",
         ),
         *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
@@ -343,7 +343,7 @@ def _roller_rows(rollers: Sequence[RollerLoad], units: UnitSystem) -> list[str]:
     table = [f"{'roller':>8}{'azimuth':>10}" + "".join(f"{head:>12}" for head in heads)]
     for one in rollers:
         loads = "".join(f"{units.value(load, 'N'):>12.1f}" for load in (one.inner_N, one.outer_N, one.rib_N))
-        row = f"{one.roller:>8}{one.azimuth_deg:>10.1f}{loads}{one.tilt_mrad:>12.4f}{one.max_line_load_N_mm:>12.1f}"
+        row = f"{one.roller:>8}{one.azimuth_deg:>10.1f}{loads}{one.tilt_mrad:>z12.4f}{one.max_line_load_N_mm:>12.1f}"
         table.append(row)
     return table
 

@@ -83,6 +83,11 @@ def test_a_iso_ends_where_its_formula_does(tmp_path: Path, capsys: pytest.Captur
     assert found["rating"]["basic_life_h"] > 0.0
 
 
+def test_no_tilt_has_no_sign(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quasistatic", case(tmp_path, "NU 208")]) == 0
+    assert "-0.0000" not in capsys.readouterr().out
+
+
 def test_the_text_names_shares_and_lives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["quasistatic", case(tmp_path, "32216", "3 kN")]) == 0
     out = capsys.readouterr().out
