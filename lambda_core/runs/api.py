@@ -49,7 +49,7 @@ def quasistatic(
     source, overrides
         As for :func:`check`, or a resolved model.
     band : bool
-        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
+        Also compute the 90 % model band, see :func:`model_band`; it costs 0.4 s for most bearings, up to 3 s for some.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -175,7 +175,7 @@ def run(
     overwrite : bool
         Overwrite `out`.
     band : bool
-        Also compute the 90 % model band, see :func:`model_band`; it costs less than a second for each bearing.
+        Also compute the 90 % model band, see :func:`model_band`; it costs 0.4 s for most bearings, up to 3 s for some.
     progress : callable, optional
         Called some ten times a second.
     announce : callable, optional
