@@ -259,7 +259,7 @@ def test_each_bearing_of_a_run_is_reported_with_its_own_geometry(monkeypatch: py
         summary=lambda: SimpleNamespace(bearings={"left": 1.0, "right": 2.0}),
         of_bearing=lambda name: SimpleNamespace(model=f"geometry of {name}"),
     )
-    parts = chapters.run_bearings(machine, SI)
+    parts: Any = chapters.run_bearings(machine, SI)
     assert parts == ((1.0, "geometry of left", "left"), (2.0, "geometry of right", "right"))
 
 
