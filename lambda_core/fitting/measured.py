@@ -206,6 +206,11 @@ def _load(name: str) -> _Loaded:
         points = read_measurements(path.with_suffix(".csv"), _words(subject))
         return _Loaded(series, points, subject, refused)
     known = {series.name: series for series in all_series()}
+    if name not in known and path.suffix:
+        raise UsageError(
+            f"{name} is not a TOML file that describes a series: correct the path, write NAME.toml next to NAME.csv, "
+            "or name a series of: lambda-bearing measured list"
+        )
     if name not in known:
         raise UsageError(unknown_name("measured series", name, known))
     folder = next(one for one in _folders() if one.joinpath(f"{name}.toml").is_file())

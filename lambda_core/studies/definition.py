@@ -168,7 +168,11 @@ def read_study(source: str | Path) -> tuple[Study, Path]:
     except UnicodeDecodeError:
         raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
     except OSError as error:
-        raise UsageError(f'cannot read the study "{path}": {error.strerror}') from None
+        what = "it does not exist" if isinstance(error, FileNotFoundError) else error.strerror
+        raise UsageError(
+            f'cannot read the study "{path}": {what}; correct the path, or write a study with: '
+            "lambda-bearing study init"
+        ) from None
     return parse_study(text, path.name), path.resolve().parent
 
 

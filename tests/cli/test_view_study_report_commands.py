@@ -162,6 +162,7 @@ def test_an_invalid_study_ends_with_3(call: Call, tmp_path: Path) -> None:
     code, _, err = call("study", "run", str(tmp_path / "none.toml"))
     assert code == 2
     assert "cannot read the study" in err
+    assert "it does not exist; correct the path, or write a study with: lambda-bearing study init" in err
 
 
 @pytest.mark.full

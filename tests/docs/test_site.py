@@ -9,6 +9,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import break_hook
 import package_diagram
 import pytest
 
@@ -24,6 +25,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
+
+
+def test_numbers_and_options_stay_in_one_piece() -> None:
+    page = "<p>1 500 000 h of 20 1500: <code>--draw</code></p><pre><code>1 500</code></pre>"
+    kept = '<p>1\xa0500\xa0000 h of 20 1500: <code class="whole">--draw</code></p><pre><code>1 500</code></pre>'
+    assert break_hook.on_page_content(page) == kept
 
 
 @pytest.mark.full

@@ -76,6 +76,8 @@ def test_too_little_thrust_on_a_tapered_bearing_is_named() -> None:
     least = 5e3 * math.tan(TAPERED.angles.outer)
     with pytest.raises(ArithmeticError, match=r"must be above F_r tan\(a_o\) = "):
         balance(TAPERED, np.array([0.999 * least, 5e3, 0.0, 0.0, 0.0]))
+    with pytest.raises(ArithmeticError, match=r"above F_r tan\(a_o\)/cos\(pi/Z\) = .*; raise it"):
+        balance(TAPERED, np.array([1.005 * least, 5e3, 0.0, 0.0, 0.0]), first_angle=math.pi / TAPERED.count)
     state = balance(TAPERED, np.array([1.3 * least, 5e3, 0.0, 0.0, 0.0]))
     assert total(TAPERED, state)[1] == pytest.approx(5e3, rel=1e-6)
 

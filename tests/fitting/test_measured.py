@@ -104,6 +104,12 @@ def test_an_unknown_series_is_refused() -> None:
         api.compare_measured(["32216-axail"])
 
 
+@pytest.mark.parametrize("name", ["nofile.toml", "rig.csv"])
+def test_a_file_that_describes_no_series_is_not_taken_for_a_name(name: str) -> None:
+    with pytest.raises(UsageError, match=rf"{name} is not a TOML file that describes a series: correct the path"):
+        api.compare_measured([name])
+
+
 def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["measured", "list"]) == 0
     text = capsys.readouterr().out

@@ -225,7 +225,7 @@ def balance(
         ring, rollers = ring + share * move_ring, rollers + share * move_rollers
     raise ArithmeticError(
         f"no equilibrium of the rollers after {_MOST_STEPS} steps: imbalance {left / size:.1e} of the load; "
-        "check loads, clearance and what holds the inner ring"
+        f"{_advice(bearing, loads, held)}"
     )
 
 
@@ -237,15 +237,36 @@ def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -
     problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
     if problem:
         raise ValueError(problem)
-    if bearing.kind == "tapered" and not any(held[:3]) and all(rib.ring == "inner" for rib in bearing.ribs):
-        # sum Q_o sin(a_o) = F_a and sum Q_o cos(a_o) cos(psi) = F_r at the outer raceway, with Q_o >= 0
-        radial = math.hypot(loads[1], loads[2])
-        least = radial * math.tan(bearing.angles.outer)
-        if loads[0] <= least:
-            raise ArithmeticError(
-                f"no equilibrium of the rollers: a thrust of {loads[0]:.4g} N does not hold cone and cup together "
-                f"under a radial load of {radial:.4g} N: it must be above F_r tan(a_o) = {least:.4g} N"
-            )
+    radial, least = math.hypot(loads[1], loads[2]), _least_thrust(bearing, loads, held)
+    if least > 0.0 and loads[0] <= least:
+        raise ArithmeticError(
+            f"no equilibrium of the rollers: a thrust of {loads[0]:.4g} N does not hold cone and cup together "
+            f"under a radial load of {radial:.4g} N: it must be above F_r tan(a_o) = {least:.4g} N"
+        )
+
+
+def _least_thrust(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> float:
+    """Return the thrust that a tapered bearing must exceed [N].
+
+    sum Q_o sin(a_o) = F_a and sum Q_o cos(a_o) cos(psi) = F_r at the outer raceway, with Q_o >= 0, give
+    F_a >= F_r tan(a_o). Zero where the ring is held, or another kind takes the thrust.
+    """
+    if bearing.kind != "tapered" or any(held[:3]) or any(rib.ring != "inner" for rib in bearing.ribs):
+        return 0.0
+    return math.hypot(loads[1], loads[2]) * math.tan(bearing.angles.outer)
+
+
+def _advice(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> str:
+    """Say what to do when no equilibrium is found."""
+    # two rollers that share the load press at half their pitch from its line: Q_o cos(a_o) cos(pi/Z) = F_r/2 each
+    least = _least_thrust(bearing, loads, held) / math.cos(math.pi / bearing.count)
+    plenty = least / 0.8  # F_r/(2 Y) with Y = 0.4 cot(alpha): half of the rollers carry (ISO 281)
+    if loads[0] < plenty:
+        return (
+            f"a thrust of {loads[0]:.4g} N hardly holds cone and cup together: between two rollers it must be above "
+            f"F_r tan(a_o)/cos(pi/Z) = {least:.4g} N; raise it to {plenty:.4g} N, at which half of the rollers carry"
+        )
+    return "check loads, clearance and what holds the inner ring"
 
 
 def thrust_problem(bearing: RollerBearing, thrust: float) -> str:

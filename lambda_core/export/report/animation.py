@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.discovery.api import Registry
-from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.views.scene import Scene
 
@@ -29,7 +29,10 @@ def check_format(path: Path) -> str:
     """
     name = path.suffix.lower()
     if name not in FORMATS:
-        raise UsageError(unknown_name("format of animations", name or path.name, FORMATS))
+        allowed = ", ".join(FORMATS)
+        raise UsageError(
+            f"{path.name} has no known format of animations; allowed are {allowed}: give the file one of these endings"
+        )
     if name == ".mp4":
         _encoder()
     return name
