@@ -29,7 +29,8 @@ def postpone_collection(then: Callable[[], None] | None = None) -> Callable[[], 
     def restore() -> None:
         if heard in gc.callbacks:
             gc.callbacks.remove(heard)
-            gc.set_threshold(*usual)
+            if gc.get_threshold()[0] == _START:  # nobody has set others meanwhile
+                gc.set_threshold(*usual)
 
     def heard(phase: str, _: dict[str, int]) -> None:
         if phase == "stop":

@@ -15,11 +15,13 @@ _USUAL = (700, 10, 10)
 
 @pytest.fixture(autouse=True)
 def _usual() -> Iterator[None]:
-    """Collect as Python does."""
-    before = gc.get_threshold()
+    """Collect as Python does, and let nobody else listen."""
+    before, others = gc.get_threshold(), list(gc.callbacks)
+    gc.callbacks.clear()
     gc.set_threshold(*_USUAL)
     yield
     gc.set_threshold(*before)
+    gc.callbacks.extend(others)
 
 
 def _asked() -> tuple[int, int, int]:
