@@ -17,7 +17,10 @@ import sys
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lambda_core.api import FitProgress
 
 Say = Callable[[str], None]
 
@@ -186,11 +189,11 @@ def fit(say: Say, case: dict[str, Any], data: str, vary: list[str], bearing: str
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system
 
-    found = api.fit(
-        case, data, vary, bearing=bearing,
-        progress=lambda points, error: say(f"{points} operating points solved, error {error:.3g} %"),
-        announce=say,
-    )  # fmt: skip
+    def follow(now: FitProgress) -> None:
+        error = "" if now.error_pct is None else f", error {now.error_pct:.3g} %"
+        say(f"{now.solved} operating points solved{error}")
+
+    found = api.fit(case, data, vary, bearing=bearing, progress=follow, announce=say)
     return found, found.text(None, unit_system(units)), found.pictures()
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from lambda_core.elements.roller.roller_bearing import kind_words
+
 if TYPE_CHECKING:
     from lambda_core.catalogue.roller_designation import RollerDesignation
 
@@ -52,9 +54,9 @@ def fresh_roller_case(name: str, found: RollerDesignation, given: float | None =
     if row.contact_angle is not None:
         axial = _HALF_LOADED * math.tan(row.contact_angle.value) * radial
         why = "along the shaft; with less the bearing alone opens"
-    kind = {"tapered": "Tapered", "needle": "Needle"}.get(row.kind, f"Cylindrical ({row.kind})")
+    kind = kind_words(row.kind)
     return _TEXT.format(
-        kind=kind,
+        kind=kind[0].upper() + kind[1:],
         designation=" ".join(word for word in found.text.split() if word.upper() != row.maker.upper()),
         maker=row.maker,
         name=name,

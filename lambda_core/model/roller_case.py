@@ -19,7 +19,7 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
-from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_bearing import RollerBearing, is_conical
 from lambda_core.elements.roller.roller_clearance import roller_clearance
 from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState
 from lambda_core.elements.roller.roller_ratings import (
@@ -294,7 +294,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
         ledger.problem(f"bearing.rollers.{name}", "is required: the catalogue has no such bearing")
     if missing or boundary is None or kind is None:
         return None
-    if (kind == "tapered") != (values["contact_angle"] is not None):
+    if is_conical(kind) != (values["contact_angle"] is not None):
         ledger.problem("bearing.rollers.contact_angle", "is required for tapered rollers and not allowed for others")
         return None
     number = {name: float(value or 0.0) for name, value in values.items()}
@@ -322,7 +322,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
             static_rating=static,
             fatigue_limit=limit,
             contact_angle=number["contact_angle"],
-            clearance=0.0 if kind == "tapered" else _clearance(case, found, boundary[0], ledger),
+            clearance=0.0 if is_conical(kind) else _clearance(case, found, boundary[0], ledger),
             end_play=rollers.end_play,
             rib_height=number["rib_height"],
             contact_height=rollers.contact_height or 0.0,

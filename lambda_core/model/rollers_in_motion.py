@@ -153,7 +153,7 @@ def as_balls(case: Case, rollers: RollerBearing) -> Case:
     changes = {"designation": None, "maker": None, "rollers": None, "geometry": geometry}
     bearing = case.bearing.model_copy(update={**changes, "clearance": f"{rollers.clearance!r} m"})
     inner = case.bodies.inner_ring
-    pressed = rollers.kind == "tapered" or bool(case.loads.axial)
+    pressed = rollers.is_conical or bool(case.loads.axial)
     silent = [dof for dof in (*(() if pressed else ("x",)), *TILTS) if dof not in inner.model_fields_set]
     inner = inner.model_copy(update={dof: type(getattr(inner, dof))(mode="locked") for dof in silent})
     # Without a cage models.cage_contact is refused, as it is with balls.

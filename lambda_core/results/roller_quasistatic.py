@@ -13,7 +13,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.domain.units import show
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
-from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.roller_bearing import RollerBearing, kind_words
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, amplitudes, waves_by_ring
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
@@ -123,7 +123,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
         case=model.name,
         headline=headline_of(model, *state.carried),
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
-        axial_play_um=0.0 if bearing.kind == "tapered" else 1e6 * bearing.end_play,
+        axial_play_um=0.0 if bearing.is_conical else 1e6 * bearing.end_play,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         iterations=state.steps,
         assumptions=[*model.assumptions, *_ASSUMED],
@@ -227,11 +227,10 @@ def headline_of(model: RollerModel, radial: float, axial: float) -> str:
     The two lines give its name and its operating point.
     """
     bearing = model.bearing
-    kind = {"tapered": "tapered", "needle": "needle"}.get(bearing.kind, f"cylindrical {bearing.kind}")
     inner, outer = (f"{speed * _RPM:.5g} rpm" for speed in model.speeds)
     speeds = f"inner ring {inner}, outer ring {outer}" if model.speeds[1] else inner
     return (
-        f"{model.name}: {model.title}, {kind} roller bearing, {bearing.count} rollers of "
+        f"{model.name}: {model.title}, {kind_words(bearing.kind)} roller bearing, {bearing.count} rollers of "
         f"{show(bearing.diameter, 'length', 4)} x {show(bearing.length, 'length', 4)}\n"
         f"radial {show(radial, 'force', 4)}, axial {show(axial, 'force', 4)}, {speeds}, "
         f"{model.lubricant} at {show(model.temperature, 'temperature', 4)} ({model.lubrication})"

@@ -36,6 +36,31 @@ RIBS: Mapping[str, tuple[tuple[Ring, int], ...]] = {
     "tapered": (("inner", -1),),
 }
 FULL_COMPLEMENT = ("NCF",)
+FAMILIES = ("cylindrical", "needle", "tapered")
+
+
+def family_of(kind: str) -> str:
+    """Return which of the families a kind belongs to."""
+    return kind if kind in FAMILIES else "cylindrical"
+
+
+def is_conical(kind: str) -> bool:
+    """Return whether the rollers are cones.
+
+    Their clearance is set when mounting.
+    """
+    return family_of(kind) == "tapered"
+
+
+def kind_words(kind: str) -> str:
+    """Return a kind as texts have it.
+
+    Such as tapered, needle, cylindrical NU.
+    """
+    family = family_of(kind)
+    return family if family == kind else f"{family} {kind}"
+
+
 # Assumed where nothing is known of the ends: the rib opens by half a degree, and a tapered roller's sphere end has 0.9
 # of the distance to the apex (0.8 to 0.95 are usual: Machines 2025, 13, 910) and touches a third of its radius high.
 _RIB_OPENING = math.radians(0.5)
@@ -151,6 +176,16 @@ class RollerBearing:
     def full_complement(self) -> bool:
         """True without a cage."""
         return self.kind in FULL_COMPLEMENT or not self.caged
+
+    @property
+    def family(self) -> str:
+        """One of :data:`FAMILIES`."""
+        return family_of(self.kind)
+
+    @property
+    def is_conical(self) -> bool:
+        """True with tapered rollers."""
+        return is_conical(self.kind)
 
     @property
     def room(self) -> float:

@@ -36,7 +36,9 @@ _TAPERED = {
     **dict.fromkeys(("302", "303", "320", "329", "330"), SeriesFactors(3.0, 2.0, 0.0004)),
     **dict.fromkeys(("313", "322", "323", "331", "332"), SeriesFactors(4.5, 3.0, 0.0004)),
 }
-_FULL_COMPLEMENT, _NEEDLE = SeriesFactors(5.0, 3.0, 0.00055), SeriesFactors(5.0, 3.0, 0.0005)
+_BY_SERIES = {"tapered": _TAPERED, "cylindrical": _CYLINDRICAL}
+_ANY_SERIES = {"needle": SeriesFactors(5.0, 3.0, 0.0005)}
+_FULL_COMPLEMENT = SeriesFactors(5.0, 3.0, 0.00055)
 
 
 def factors_of(inputs: RollerMethodInputs) -> SeriesFactors:
@@ -50,9 +52,9 @@ def factors_of(inputs: RollerMethodInputs) -> SeriesFactors:
     bearing = inputs.bearing
     if bearing.full_complement:
         return _FULL_COMPLEMENT
-    if bearing.kind == "needle":
-        return _NEEDLE
-    table = _TAPERED if bearing.kind == "tapered" else _CYLINDRICAL
+    if bearing.family in _ANY_SERIES:
+        return _ANY_SERIES[bearing.family]
+    table = _BY_SERIES[bearing.family]
     if bearing.series not in table:
         raise NotApplicable(unknown_name("series of the Schaeffler table of rollers", bearing.series, table))
     return table[bearing.series]
