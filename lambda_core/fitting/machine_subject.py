@@ -153,7 +153,7 @@ class MachineSubject:
         scale, (number,) = read
         entry = Graded(path, number, math.nan, math.nan, Scale(scale.unit), "", "")
         if not equals:
-            raise UsageError(f"--vary: {path} has no published range: give one, for example --vary {entry.example()}")
+            raise UsageError(f"--vary: {path} has no published range: give one, for example {entry.example()}")
         return given_range(entry, ends)
 
     def values(

@@ -200,15 +200,16 @@ def test_check_refuses_a_fitted_value_at_a_wrong_path(source: str) -> None:
             "lubricant": {"name": "FVA3", "temperature": "60 degC"}, "loads": {"radial": "4 kN", "axial": "2 kN"},
         })  # fmt: skip
     right, wrong = "parameters.elastic_hysteresis.loss_factor", "parameters.elastic_hysteresis.loss_facto"
-    api.check(tables.with_(fit=_fit_of((right, ""), ("bearing.clearance", "um"))), is_static=True)
+    size, unit = ("bearing.bore_diameter", "mm") if source == "tapered" else ("bearing.clearance", "um")
+    api.check(tables.with_(fit=_fit_of((right, ""), (size, unit))), is_static=True)
     for check in (partial(api.check, is_static=True), partial(api.model_band, quantities=TORQUE)):
         with pytest.raises(CaseError) as caught:
-            check(tables.with_(fit=_fit_of((right, ""), (wrong, ""), ("bearing.clearance", "N"))))
-        path, unit = caught.value.problems
-        assert path.where == "fit.parameters.1.path"
-        assert f"nearest: {right}" in path.message
-        assert unit.where == "fit.parameters.2.unit"
-        assert unit.message.startswith("bearing.clearance: ")
+            check(tables.with_(fit=_fit_of((right, ""), (wrong, ""), (size, "N"))))
+        of_path, of_unit = caught.value.problems
+        assert of_path.where == "fit.parameters.1.path"
+        assert f"nearest: {right}" in of_path.message
+        assert of_unit.where == "fit.parameters.2.unit"
+        assert of_unit.message.startswith(f"{size}: ")
 
 
 def test_check_refuses_a_fitted_value_at_a_wrong_path_of_a_machine() -> None:

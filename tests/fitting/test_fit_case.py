@@ -139,7 +139,7 @@ def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], rep
     [
         ("loss_facto", "nearest: parameters.elastic_hysteresis.loss_factor"),
         ("speed_floor", "names several parameters: write parameters.film_thickness.speed_floor or"),
-        ("vogel_k", 'has no published range: give one, for example --vary parameters.rheology.vogel_k="0.031..0.124"'),
+        ("vogel_k", 'has no published range: give one, for example parameters.rheology.vogel_k="0.031..0.124"'),
         ("tau_eyring=3..10", 'has no unit: write 4 MPa..16 MPa'),
         ("tau_eyring=10 MPa..3 MPa", "is not a range: write LOW..HIGH"),
         ("tau_eyring=3 mm..10 mm", "no unit in common"),

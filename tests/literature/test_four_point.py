@@ -283,12 +283,26 @@ def test_factors_of_two_rows_follow_from_one(angle: int) -> None:
 
     ISO/TR 1281-1: X and Y above e are 1.625 of one row's, Y below 0.625/e; the table rounds them.
     """
-    alpha = math.radians(angle)
-    one, two = (dynamic_equivalent_load(0.0, 3000.0, 10e3, 14.0, alpha, rows) for rows in (1, 2))
-    assert two.radial_factor == pytest.approx(1.625 * one.radial_factor, abs=0.006)
-    assert two.axial_factor == pytest.approx(1.625 * one.axial_factor, abs=0.006)
-    below = dynamic_equivalent_load(3001.0 / one.limit, 3000.0, 10e3, 14.0, alpha, 2)
-    assert below.axial_factor == pytest.approx(0.625 / one.limit, abs=0.011)
+    two = dynamic_equivalent_load(0.0, 3000.0, 10e3, 14.0, math.radians(angle), 2)
+    limit, radial, axial = _of_one_row(angle, 3000.0, 10e3)
+    assert two.radial_factor == pytest.approx(1.625 * radial, abs=0.006)
+    assert two.axial_factor == pytest.approx(1.625 * axial, abs=0.006)
+    below = dynamic_equivalent_load(3001.0 / limit, 3000.0, 10e3, 14.0, math.radians(angle), 2)
+    assert below.axial_factor == pytest.approx(0.625 / limit, abs=0.011)
+
+
+def _of_one_row(angle: int, load: float, rating: float) -> np.ndarray:
+    """Return e, X and Y of one row of two.
+
+    It is the one that takes the thrust. It has half of the rating; of radial contact both rows share the load.
+    """
+
+    def factors(degrees: float, own: float) -> np.ndarray:
+        found = dynamic_equivalent_load(0.0, load, own, 14.0, math.radians(degrees), 1)
+        return np.array([found.limit, found.radial_factor, found.axial_factor])
+
+    share = min(angle / 15.0, 1.0)
+    return (1.0 - share) * factors(0.0, rating) + share * factors(max(angle, 15.0), 0.5 * rating)
 
 
 def test_life_of_two_rows_is_that_of_the_rating() -> None:

@@ -11,7 +11,7 @@ from lambda_gui.summary_view import summary_view
 
 from lambda_core import api
 from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium
-from lambda_core.export.report.key_tables import key_figures, run_figures
+from lambda_core.export.report.key_tables import more_figures, run_figures
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities, quantity
 from lambda_core.results.quasistatic import QuasiStatic
@@ -85,7 +85,7 @@ def test_a_new_number_of_an_equilibrium_is_everywhere(monkeypatch: pytest.Monkey
     found = WiderStatic(**dict(api.quasistatic("6208-axial-1300")))
     assert re.search(r"^creep +12\.34 um$", found.text(), re.MULTILINE)
     assert found.model_dump(mode="json")["creep_um"] == 12.34
-    assert ("creep of the outer ring", "12.3", "um") in key_figures(found)
+    assert ("creep of the outer ring", "12.3", "um") in more_figures(found)
     monkeypatch.setattr(responses, "QuasiStatic", WiderStatic)
     assert responses._catalogue()["creep_um"].static is not None
 

@@ -105,7 +105,7 @@ def test_a_place_that_takes_no_file_is_refused_before_the_work(
         raise AssertionError("the work has begun")
 
     for place in (
-        "runs.launch.solve",
+        "runs.beginning.solve",
         "solver.drivers.equilibrium.solve",
         "export.report.page.run_chapter",
         "discovery.shown.data_of",

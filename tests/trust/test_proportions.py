@@ -9,6 +9,7 @@ import pytest
 from lambda_core import api
 from lambda_core.elements.ball.kinds import kinds
 from lambda_core.model.checking import check_bearing
+from lambda_core.model.checks.operating_limits import operating_warnings
 
 CASE = "6208-axial-1300"
 
@@ -24,11 +25,9 @@ CASE = "6208-axial-1300"
 )
 def test_what_no_maker_builds_is_told(change: str, words: str) -> None:
     case = [f"bearing.geometry.{change}"]
-    (found,) = [
-        text for text in api.operating_warnings(check_bearing(api.case(CASE, case))) if "of the catalogue" in text
-    ]
+    (found,) = [text for text in operating_warnings(check_bearing(api.case(CASE, case))) if "of the catalogue" in text]
     assert found.startswith(words)
-    assert not [text for text in api.operating_warnings(check_bearing(api.case(CASE))) if "of the catalogue" in text]
+    assert not [text for text in operating_warnings(check_bearing(api.case(CASE))) if "of the catalogue" in text]
 
 
 @pytest.mark.parametrize("change", ["ball_count=16", "ball_count=1", "outside_diameter=59 mm", "bore_diameter=61 mm"])

@@ -216,4 +216,4 @@ except api.UsageError as error:
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600)
     assert 'pip install "lambda-bearing[animation]"' in done.stdout
-    assert "--out NAME.gif" in done.stdout
+    assert "a name in .gif" in done.stdout

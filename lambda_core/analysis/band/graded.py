@@ -223,7 +223,7 @@ def varied(model: BearingModel, specification: str) -> Graded:
         _refuse_outside(model, given)
         return given
     if found.path not in ranged:
-        raise UsageError(f"--vary: {found.path} has no published range: give one, for example --vary {found.example()}")
+        raise UsageError(f"--vary: {found.path} has no published range: give one, for example {found.example()}")
     return found
 
 

@@ -98,7 +98,7 @@ def _encoder() -> Any:
         return import_module("imageio_ffmpeg")
     except ImportError:
         raise UsageError(
-            'MP4 needs an encoder: pip install "lambda-bearing[animation]"; a GIF needs nothing: --out NAME.gif'
+            'MP4 needs an encoder: pip install "lambda-bearing[animation]"; a GIF needs nothing: give a name in .gif'
         ) from None
 
 
