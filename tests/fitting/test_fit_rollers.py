@@ -98,6 +98,7 @@ def test_rollers_of_a_machine_take_fitted_parameters() -> None:
     assert high > 1.02 * low
 
 
+@pytest.mark.full
 def test_rollers_at_computed_temperatures_are_fitted_there() -> None:
     """Predict rollers that warm up, and measure their temperatures.
 

@@ -43,7 +43,7 @@ def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None
 
 
 @pytest.mark.usefixtures("sundials")
-@pytest.mark.parametrize("case", ["6319-cp10-3000", "6319-cp6.5-500"])
+@pytest.mark.parametrize("case", [pytest.param("6319-cp10-3000", marks=pytest.mark.full), "6319-cp6.5-500"])
 def test_trajectories_at_the_default_tolerance(case: str) -> None:
     """Compare trajectories where vibrations and creep are hard.
 

@@ -123,7 +123,7 @@ def test_table_4_in_full_reaches_its_page(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("what", "without", "options"),
     [
-        ("table4", "6319-cp10-500", []),
+        pytest.param("table4", "6319-cp10-500", [], marks=pytest.mark.full),
         pytest.param("anchors", "6205 (SKF, geometry edited)", [], marks=pytest.mark.full),
         ("fig7", "6208-axial-700", []),
         ("fig5", "loads.radial=5 kN", ["--quick"]),
