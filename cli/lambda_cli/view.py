@@ -58,10 +58,13 @@ def view(
     kind = picture_kind() if shown and not as_json else None
     if not (as_json or kind or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)
-    data = [api.view(sources, name, chosen, bearing=bearing)] if name else list(_all(sources, bearing))
+    found = _all(sources, bearing, with_reasons=measured is None)
+    if name:
+        found = [api.view(sources, name, chosen, bearing=bearing)]
     if measured is not None:
         run = sources[0] if not name and len(sources) == 1 and Path(sources[0]).suffix == ".h5" else None
-        data = api.with_measured(data, measured, result=run, bearing=bearing)
+        found = api.with_measured(found, measured, result=run, bearing=bearing)
+    data = list(found)
     if as_json:
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
@@ -109,18 +112,19 @@ def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone
         return []
 
 
-def _all(sources: list[str], bearing: str | None) -> Iterable[ViewData]:
+def _all(sources: list[str], bearing: str | None, with_reasons: bool) -> Iterable[ViewData]:
     """Yield the data of every view that applies.
 
-    Print why others do not.
+    Print why others do not, where that is asked for.
     """
     from lambda_core import api
+    from lambda_core.domain.plugin_errors import failures_so_far
 
     for name, data in api.view_all(sources, bearing=bearing):
-        if isinstance(data, api.LambdaError):
-            typer.echo(f"{name}: {data}", err=True)
-        else:
+        if not isinstance(data, api.LambdaError):
             yield data
+        elif with_reasons or str(data) in failures_so_far():
+            typer.echo(f"{name}: {data}", err=True)
 
 
 def _sorted_out(words: list[str]) -> tuple[list[str], str]:

@@ -238,13 +238,13 @@ def traction(
 
 
 def with_measured(
-    pictures: Sequence[ViewData], measured: str | Path, *, result: str | Path | None = None, bearing: str | None = None
+    pictures: Iterable[ViewData], measured: str | Path, *, result: str | Path | None = None, bearing: str | None = None
 ) -> list[ViewData]:
     """Add a measured series to pictures with its axes.
 
     Parameters
     ----------
-    pictures : sequence of ViewData
+    pictures : iterable of ViewData
         From :func:`view`, :func:`stribeck_picture`, :func:`thermal_pictures` and so on.
     measured : path-like
         CSV file: one column has the name of a horizontal axis, such as ``speed [1/min]`` or ``time [s]``; others have
@@ -275,4 +275,4 @@ def with_measured(
         from lambda_core.results.reader import Result
 
         more = pictures_of_case(Result(Path(result)), measured, bearing)
-    return overlaid(more or pictures, measured)
+    return overlaid(more or list(pictures), measured)

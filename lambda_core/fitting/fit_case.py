@@ -348,6 +348,8 @@ def _sentence(found: Fit, free: Sequence[str]) -> str:
     count = found.data.values.size
     if found.is_interrupted:
         return f"Interrupted: of {_list(free or held)} these are the best values so far."
+    if not free and len(held) == 1:
+        return f"The {count} measured values do not determine {held[0]}, which keeps its start value."
     if not free:
         return f"The {count} measured values determine none of the parameters {_list(held)}."
     text = f"The {count} measured values determine {_list(free)}"

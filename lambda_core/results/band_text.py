@@ -88,7 +88,7 @@ def named_sources(bands: Mapping[str, ModelBand | None], units: UnitSystem = SI)
     found = []
     for name, band in bands.items():
         torque = [one for one in band.bands if one.quantity == "friction torque"] if band is not None else []
-        found += [f"{name}: friction torque mostly {one.mostly()}" for one in torque if one.mostly()]
+        found += [f"{name}: friction torque mostly {one.why()}" for one in torque if one.mostly()]
         found += [f"{name}: {text}" for text in (temperature_text(band, units),) if text]
     return found
 
@@ -114,7 +114,7 @@ def source_lines(band: ModelBand | None) -> list[str]:
         return list(band.left_out)
     reasons: dict[str, list[str]] = {}
     for one in (wide for wide in band.bands if not is_narrow((wide.low, wide.high))):
-        reasons.setdefault(one.mostly(), []).append(one.quantity)
+        reasons.setdefault(one.why(), []).append(one.quantity)
     share = f"{100.0 * band.coverage:.0f} %"
     lines = [f"{' and '.join(names)}: {why}" for why, names in reasons.items() if why]
     return [f"{share}, ranges of parameters and laws exchanged; mostly from", *lines, *band.left_out]

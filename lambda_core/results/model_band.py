@@ -29,8 +29,11 @@ TEMPERATURES = {name: name.removesuffix(" temperature") for name in FIELDS if na
 QUANTITIES = tuple(FIELDS)
 _ENDS = "ends of the 90 % model band; empty without one"
 _COMPUTED = "ends of the 90 % model band of a computed temperature; empty where it is given"
+LAW_OF = "law of "  # begins the name of a contributor that exchanges the laws of a role
+_SIDES = {"low": "lower", "high": "upper"}
 _NAMED = 3  # largest contributors
 LEAST_SHARE = 0.5  # [%] below it a band is not worth its causes
+_NEAR_END = 0.02  # of the width of a band or of a contributor
 NARROW = f"within {LEAST_SHARE:g} %"
 
 
@@ -79,6 +82,29 @@ class Band(Record):
         """Return the names and shares of the largest contributors."""
         return ", ".join(f"{c.name} {100.0 * c.share:.0f} %" for c in self.contributors[:_NAMED])
 
+    def why(self) -> str:
+        """Return the causes, and why the value is an end."""
+        return "; ".join(text for text in (self.mostly(), self._at_end()) if text)
+
+    def _at_end(self) -> str:
+        """Say why the value is an end of its band.
+
+        Empty where it is not, or where no contributor tells why.
+        """
+        for end, most in (("low", "smallest"), ("high", "largest")):
+            if not self._is_near(end, self):
+                continue
+            cause = next((one.name for one in self.contributors[:_NAMED] if self._is_near(end, one)), "")
+            if cause:
+                of_laws = f"the {cause} gives the {most} value of all laws"
+                reason = of_laws if cause.startswith(LAW_OF) else f"{cause} is at an end of its range"
+                return f"the value is near the {_SIDES[end]} end of its band, because {reason}"
+        return ""
+
+    def _is_near(self, end: str, whose: Band | Contributor) -> bool:
+        """Tell whether the value is near an end."""
+        return abs(float(getattr(whose, end)) - self.value) <= _NEAR_END * (whose.high - whose.low)
+
     def text(self) -> str:
         """Return the band in one line.
 
@@ -86,7 +112,7 @@ class Band(Record):
         """
         half = 0.5 * (self.high - self.low)
         shown = [rounded(number, half) for number in (self.value, self.low, self.high)]
-        names = self.mostly()
+        names = self.why()
         why = f"; mostly {names}" if names else ""
         return f"{self.quantity} {shown[0]} {self.unit}, 90 % model band {shown[1]}..{shown[2]} {self.unit}{why}"
 

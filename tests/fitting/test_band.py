@@ -484,6 +484,30 @@ def test_a_band_without_width_prints_no_ends_and_no_causes() -> None:
     assert lines[1:] == ["friction torque: traction.tau_eyring 100 %"]
 
 
+@pytest.mark.parametrize(
+    ("cause", "side", "reason"),
+    [
+        ("fluid_drag.entrainment", "upper", "because fluid_drag.entrainment is at an end of its range"),
+        ("law of fluid_drag", "lower", "because the law of fluid_drag gives the smallest value of all laws"),
+    ],
+)
+def test_a_value_at_the_end_of_its_band_has_its_reason(cause: str, side: str, reason: str) -> None:
+    """Name the parameter at an end of its range.
+
+    The torque of a 7218 with an oil jet is 4 300 N mm, and its band ends at 4 400 N mm.
+    """
+    low, high = (1000.0, 4010.0) if side == "upper" else (3990.0, 7000.0)
+    wide = Contributor(name="lubricant.temperature", share=0.1, low=3900.0, high=4100.0, source="")
+    one = Contributor(name=cause, share=0.9, low=min(low, 4000.0), high=max(4000.0, high - 10.0), source="")
+    band = Band(quantity="friction torque", unit="N mm", value=4000.0, low=low, high=high, contributors=[wide, one])
+    found = ModelBand(case="c", coverage=0.9, bands=[band], left_out=[])
+    said = f"the value is near the {side} end of its band, {reason}"
+    assert source_lines(found)[1].endswith(said)
+    assert band.text().endswith(said)
+    middle = band.model_copy(update={"low": 1000.0, "high": 7000.0})
+    assert "the value" not in middle.text()
+
+
 def test_the_band_of_a_6308_holds_two_independent_models_and_not_the_formula_of_skf() -> None:
     """Compare torques at F_a/F_r = 0.2 and radial load.
 

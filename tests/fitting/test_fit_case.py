@@ -16,9 +16,13 @@ from lambda_core import api
 from lambda_core.case.case_writer import case_toml
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.fitting import fit_case
+from lambda_core.fitting.least_squares import Data
+from lambda_core.fitting.least_squares import fit as fit_values
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
+from lambda_core.fitting.parameters import Parameter
 from lambda_core.fitting.problem import CaseProblem
+from lambda_core.fitting.report import SuggestedPoint
 from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import subject_of
 
@@ -248,6 +252,28 @@ def test_an_early_interruption_keeps_values_with_the_errors_of_their_ranges(
     case = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
     assert "best before an interrupted fit to" in case.read_text(encoding="utf-8")
     api.quasistatic(case, band=True)
+
+
+def test_data_that_do_not_determine_a_parameter_have_a_sentence_of_their_own() -> None:
+    """Say what the data do not determine.
+
+    It was "none of the parameters" of one.
+    """
+    data = Data(np.array([10.0, 10.1, 9.9]), np.ones(3))
+    found = fit_values(lambda values: 10.0 + 1e-3 * np.repeat(values, 3), [Parameter("mu", 0.1, 0.0, 0.2)], data)
+    assert fit_case._sentence(found, []) == "The 3 measured values do not determine mu, which keeps its start value."
+
+
+def test_a_next_point_that_tells_nothing_is_said_to(report: api.FitReport) -> None:
+    """Do not offer a point that tells nothing.
+
+    It reduced the uncertainty "from 1.00 to 1.00".
+    """
+    point = SuggestedPoint(
+        conditions={"speed": "3 rpm"}, combination={"mu": 1.0}, spread_before=1.0, spread_after=0.999
+    )
+    said = "the best one, speed 3 rpm, leaves the uncertainty of mu at 1.00 of its range before the fit"
+    assert f"next point to measure: {said}" in report.model_copy(update={"next_point": point}).text()
 
 
 def test_points_to_predict_are_read_before_the_fit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.results.reader import Result
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
+from lambda_core.views.method import NotApplicable
 
 
 def _temperatures() -> ViewData:
@@ -65,6 +66,18 @@ def test_pictures_without_axes_for_the_file_are_left_out(tmp_path: Path) -> None
     other = ViewData("film", "Film", "case", (_temperatures().panels[2],))
     found = api.with_measured([other, _temperatures()], _file(tmp_path, "time [s],temperature [degC]\n60,30\n"))
     assert [one.view for one in found] == ["temperatures"]
+
+
+def test_views_that_were_not_asked_for_have_no_notes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    views = [("heat", NotApplicable("there is no heat")), ("temperatures", _temperatures())]
+    monkeypatch.setattr(api, "view_all", lambda sources, bearing: views)
+    file = _file(tmp_path, "time [s],temperature [degC]\n60,30\n")
+    assert main(["view", str(tmp_path), "--measured", str(file), "--json"]) == 0
+    assert "no heat" not in capsys.readouterr().err
+    assert main(["view", str(tmp_path), "--json"]) == 0
+    assert "heat: there is no heat" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from lambda_core.analysis.thermal.losses import model_at
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, SolverError, UsageError
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.results.model_band import LAW_OF
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
@@ -177,7 +178,7 @@ class Effects:
             except (CaseError, SolverError) as error:
                 self.left_out.append(f"{role} {law} is left out: {_first(error)}")
         for exchange in wanted:
-            yield Effect(f"law of {exchange.role}", exchange.source, np.array(found[exchange.role]), is_range=False)
+            yield Effect(f"{LAW_OF}{exchange.role}", exchange.source, np.array(found[exchange.role]), is_range=False)
 
     def _others(self, wanted: Sequence[Exchange], resolver: Resolver) -> Iterator[tuple[str, str, BearingModel]]:
         """Yield role, name and model of each other law.

@@ -18,6 +18,7 @@ from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
 from lambda_core.domain.written_values import Scale
 from lambda_core.elements.roller.roller_positions import PLACES
 from lambda_core.model.roller_case import roller_model
+from lambda_core.results.model_band import LAW_OF
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.results.roller_quasistatic import roller_answer, solve_rollers, with_friction
 
@@ -100,7 +101,7 @@ class RollerEffects:
         for exchange in exchanges(self._model):
             if exchange.role in ROLLER_CHOICES and exchange.role not in self._kept:
                 found = [np.zeros(len(self.names)), *self._exchanged(exchange)]
-                yield Effect(f"law of {exchange.role}", exchange.source, np.array(found), is_range=False)
+                yield Effect(f"{LAW_OF}{exchange.role}", exchange.source, np.array(found), is_range=False)
 
     def _exchanged(self, exchange: Exchange) -> Iterator[FloatArray]:
         for law in exchange.laws:
