@@ -175,12 +175,13 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         condition = vocabulary.condition(name, unit or "")
     if condition is None and name not in measured:
         known = [*vocabulary.conditions, *measured]
-        close = nearest(name, known) or known[:_LISTED]
+        close = nearest(name, known)
+        names = f"nearest: {', '.join(close)}" if close else f"allowed: {', '.join(known[:_LISTED])}"
         shown = text if len(text) <= _LONGEST else f"{text[:_BEGIN]}..."
         if why := vocabulary.why_not(name):
             problems.append(Problem(where, f'"{shown}": {why}'))
             return None
-        problems.append(Problem(where, f'"{shown}" is not a known column; nearest: {", ".join(close)}'))
+        problems.append(Problem(where, f'"{shown}" is not a known column; {names}'))
         return None
     if condition is not None:
         quantity = condition.error_quantity if is_error else condition.quantity

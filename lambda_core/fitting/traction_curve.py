@@ -95,7 +95,7 @@ class TractionCurve(Record):
             low, top = (values - 2.0 * spread, values + 2.0 * spread) if found.error else (None, None)
             at = 100.0 * np.array(found.slide_roll_ratio)
             words = "two standard deviations" if found.error else ""
-            lines.append(Series(found.file, at, values, "points", "reference", low=low, high=top, band=words))
+            lines.append(Series(found.file, at, values, "points", "measured", low=low, high=top, band=words))
             high = max(1.1 * float(at.max()), 1.0)
         panel = Panel("", Axis("slide-roll ratio", "%", low=0.0, high=high), Axis(_TRACTION, low=0.0), tuple(lines))
         notes = ("ball of 19.05 mm on a flat disc, both of steel; full film, asperities left out",)

@@ -8,6 +8,7 @@ import math
 import numpy as np
 from pydantic import Field
 
+from lambda_core.domain.number_text import percent
 from lambda_core.domain.units import show
 from lambda_core.model.bearing_model import USUAL_RESOLVE, Solver
 from lambda_core.results.record import Record
@@ -73,12 +74,12 @@ class NumericalDamping(Record):
 
         The spectrum ends at a frequency [Hz].
         """
-        damping, shift = self.at(frequency)
-        half = self.at(0.5 * frequency)
+        damping, shift = map(percent, self.at(frequency))
+        half_damping, half_shift = map(percent, self.at(0.5 * frequency))
         where, middle = show(frequency, "frequency", 3), show(0.5 * frequency, "frequency", 3)
         return (
-            f"the integration adds {damping:.2g} % of critical damping at {where} and shifts it by {shift:.2g} %, "
-            f"at {middle} {half[0]:.2g} % and {half[1]:.2g} %; {self.sentence()}"
+            f"the integration adds {damping} of critical damping at {where} and shifts it by {shift}, "
+            f"at {middle} {half_damping} and {half_shift}; {self.sentence()}"
         )
 
 

@@ -54,6 +54,7 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed [rpm],radial load [N]\n1,2\n", "has no measured quantity"),
         ("speed,power loss [W]\n1,2\n", 'line 1, column 1       "speed" has no unit: write "speed [rpm]"'),
         ("sped [rpm],power loss [W]\n1,2\n", '"sped [rpm]" is not a known column; nearest: speed'),
+        ("xyz [rpm],power loss [W]\n1,2\n", '"xyz [rpm]" is not a known column; allowed: speed, radial load,'),
         ("speed [kN],power loss [W]\n1,2\n", "kN is not a unit of rotational_speed"),
         ("speed [rpm],speed [rpm],power loss [W]\n1,1,2\n", 'column 2       "speed" appears twice'),
         ("power loss [W],speed error [rpm]\n1,2\n", 'no column "speed" it belongs to'),

@@ -13,7 +13,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from lambda_core import api
-from lambda_core.results.numerical_damping import added
+from lambda_core.results.numerical_damping import NumericalDamping, added
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import BearingEngine
@@ -177,6 +177,16 @@ def test_of_long_steps_the_damping_still_holds() -> None:
     damping, shift = added(8.0 * 2.0 * np.pi, fine=True)
     assert 0.03 < damping < 0.05
     assert shift == -1.0
+
+
+def test_a_frequency_that_a_step_does_not_see_is_shifted_by_100_percent() -> None:
+    """Write large shares without an exponent.
+
+    It was "-1e+02 %".
+    """
+    note = NumericalDamping(resolve_Hz=0.0, step_s=1e-3, modes=[]).note(5000.0)
+    assert "at 5 kHz and shifts it by -100 %, at 2.5 kHz" in note
+    assert "e+" not in note
 
 
 def test_a_run_says_how_far_its_vibrations_can_be_believed(tmp_path: Path) -> None:

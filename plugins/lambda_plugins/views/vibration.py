@@ -162,17 +162,17 @@ def _read(options: VibrationOptions) -> _Signal:
         raise UsageError(f"{data.name} line {line}: {options.motion} is empty: a signal has a value at every time")
     if values.size < SHORTEST_SPECTRUM:
         raise UsageError(f"{data.name}: {values.size} samples are too few for a spectrum: {SHORTEST_SPECTRUM} at least")
-    return _Signal(data.name, time - time[0], values, "reference")
+    return _Signal(data.name, time - time[0], values, "measured")
 
 
 def _over_time(signals: list[_Signal], motion: str, unit: str) -> Panel:
     """Return signals of equal length.
 
-    Each starts at its beginning and is as long as the shortest one.
+    Each starts at its beginning and is as long as the shortest one. The smallest is drawn last, upon the others.
     """
     length = min(float(s.time[-1] - s.time[0]) for s in signals)
     series = []
-    for s in signals:
+    for s in sorted(signals, key=lambda s: -float(np.ptp(s.values))):
         since = s.time - s.time[0]
         shown = since <= length
         series.append(trace(s.name, 1e3 * since[shown], (s.values - s.values.mean())[shown], s.role))
