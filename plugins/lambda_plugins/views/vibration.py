@@ -96,6 +96,7 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
     unit, _ = _MOTIONS[options.motion]
     own = _computed(run, options, span.rows(run["time"]))
     signals = [own, _read(options)] if options.measured else [own]
+    signals.sort(key=lambda one: -float(np.ptp(one.values)))  # the smaller one is drawn last, upon the larger
     marks = speeds(run, span).frequencies()
     highest = max(marks.values())
     low = options.above or _ENVELOPE * highest
@@ -168,11 +169,11 @@ def _read(options: VibrationOptions) -> _Signal:
 def _over_time(signals: list[_Signal], motion: str, unit: str) -> Panel:
     """Return signals of equal length.
 
-    Each starts at its beginning and is as long as the shortest one. The smallest is drawn last, upon the others.
+    Each starts at its beginning and is as long as the shortest one.
     """
     length = min(float(s.time[-1] - s.time[0]) for s in signals)
     series = []
-    for s in sorted(signals, key=lambda s: -float(np.ptp(s.values))):
+    for s in signals:
         since = s.time - s.time[0]
         shown = since <= length
         series.append(trace(s.name, 1e3 * since[shown], (s.values - s.values.mean())[shown], s.role))
