@@ -69,7 +69,7 @@ def fit_report(
     if sample:
         check_count(sample)
     if not listed(vary, "vary"):
-        raise UsageError("nothing to fit: name a parameter, for example --vary loss_factor")
+        raise UsageError("nothing to fit: name a parameter, for example loss_factor")
     subject = subject_of(source, overrides, bearing)
     data = _read(measured, subject)
     unseen = None if predict is None else _read(predict, subject)

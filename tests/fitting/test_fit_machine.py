@@ -139,7 +139,7 @@ def test_mistakes_in_columns_of_a_machine_have_their_line(header: str, said: str
     ("vary", "said"),
     [
         ("los_factor", "nearest: parameters.elastic_hysteresis.loss_factor"),
-        ("bearings.right.support.z", 'give one, for example --vary bearings.right.support.z="75 N/um..300 N/um"'),
+        ("bearings.right.support.z", 'give one, for example bearings.right.support.z="75 N/um..300 N/um"'),
         ("bearing.clearance", "write bearings.left.clearance or bearings.right.clearance"),
         ("bearings.middle.support.z=1 N/um..2 N/um", "name a number in the case of rig"),
     ],
