@@ -122,6 +122,23 @@ def test_the_jacobian_of_several_bearings(places: tuple[float, ...]) -> None:
     assert np.all(np.abs(ours - exact) < 3e-3 * np.abs(exact).max(axis=1, keepdims=True) + 0.1)
 
 
+def test_renewed_balls_change_no_more_than_their_part_of_the_jacobian() -> None:
+    """Renew the blocks of one bearing at an unchanged state.
+
+    The matrix is the same to rounding: what the bearing gave before is taken away first.
+    """
+    m = machine(*MODELS["default"])
+    several = shaft(m, [0.0, 30e-3])
+    y, blocks = several.states(random_state(m, 4, "sliding"), random_state(m, 5, "sliding")), several.context.blocks
+    several.evaluate(y)
+    assert core().jacobian(0.0, y, several.context.bundle, blocks) == 1
+    before = dense(blocks).copy()
+    blocks.due[:] = 0
+    blocks.due[: m.count] = 1
+    assert core().jacobian(0.0, y, several.context.bundle, blocks) == 1
+    assert dense(blocks) == pytest.approx(before, rel=1e-9, abs=1e-9 * np.abs(before).max())
+
+
 def test_the_blocks_of_a_ball_hold_its_own_bodies_alone() -> None:
     """Compare the memory of six bearings and one.
 
