@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 _PRINTED = 20  # problems of a case; `problems` holds all
-_OPTION = re.compile(r"lambda-bearing [^;,()]*|(?<![\w-])--([a-z][a-z-]*)")  # commands first: they are none
+# A command to type matches first and stays as it is.
+_OPTION = re.compile(r"lambda-bearing [^;,()]*|(?<![\w-])--([a-z][a-z-]*)")
 _PARAMETERS = {"force": "overwrite=True", "set": "overrides", "duration": "solver.duration"}
 _SHOWN = 24  # of the names that are there, where none is near
 
@@ -44,7 +45,7 @@ class LambdaError(Exception):
 
 
 def name_parameters(error: LambdaError) -> None:
-    """Name parameters of Python for options.
+    """Replace options by the parameters of Python calls.
 
     Commands to type stay as they are.
     """

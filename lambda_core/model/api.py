@@ -90,7 +90,9 @@ def problems(source: Source) -> tuple[Problem, ...]:
 
 
 def describe(model: BearingModel | MachineModel) -> CaseReport | MachineReport:
-    """Describe a resolved model, of a bearing with all values.
+    """Describe a resolved model.
+
+    The report of a bearing has all its values.
 
     Parameters
     ----------

@@ -331,7 +331,7 @@ class BearingModel:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Nothing: only machines have parts that may conflict."""
+        """No warnings: only parts of machines can conflict."""
         return ()
 
     @property

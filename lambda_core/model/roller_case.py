@@ -225,7 +225,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         raise CaseError(case.name, [Problem(_WHERE, "is not a complete roller bearing")])
     lubrication = lubrication_of(case.lubricant, row)
     if lubrication in _WITHOUT_DRAG:
-        ledger.assume(f"drag of rollers is left out at an operating point: no law of SKF is for {lubrication}")
+        ledger.assume(f"drag of rollers is left out at an operating point: SKF has no law for {lubrication}")
     rollers = bearing.rollers or InlineRollers()
     level = -math.inf if is_grease(row) else level
     return RollerModel(

@@ -29,13 +29,13 @@ def lambda_events(register):
     register(Event("cage-whirl", "the cage has left the middle", whirls, "own work", Whirl, event_api=1))
 
 
-def told(run):
-    """Tell the report how far the cage's centre went."""
+def whirl_section(run):
+    """Return how far the cage's centre went."""
     inner, cage = run["body_position"][:, 0, 1:], run["body_position"][:, 2, 1:]
     farthest = 1e6 * np.hypot(*(cage - inner).T).max()
-    return ["The cage against the inner ring's axis.", ReportTable("", ("", "um"), (("farthest", f"{farthest:.3g}"),))]
+    return ["Distance of cage and inner ring.", ReportTable("", ("", "um"), (("farthest", f"{farthest:.3g}"),))]
 
 
 @hookimpl
 def lambda_sections(register):
-    register(Section("cage-whirl", "Cage whirl", told, "own work", section_api=1))
+    register(Section("cage-whirl", "Cage whirl", whirl_section, "own work", section_api=1))

@@ -1,7 +1,7 @@
 """Test that the event happens beyond its limit only."""
 
 import numpy as np
-from cage_whirl import Whirl, told, whirls
+from cage_whirl import Whirl, whirl_section, whirls
 
 from lambda_core.testing import run_data
 
@@ -16,4 +16,4 @@ def test_limit():
 def test_the_report_has_the_farthest_place():
     places = np.zeros((2, 3, 3))
     places[1, 2, 2] = 3e-5
-    assert told(run_data(time=[0.0, 1.0], body_position=places))[1].rows == (("farthest", "30"),)
+    assert whirl_section(run_data(time=[0.0, 1.0], body_position=places))[1].rows == (("farthest", "30"),)
