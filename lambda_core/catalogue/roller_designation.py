@@ -35,20 +35,32 @@ def roller_designation(catalogue: Catalogue, text: str, maker: str | None = None
     CatalogueError
         For an unknown suffix, or a maker that has no such bearing.
     """
+    rows = sorted(catalogue.rollers(), key=lambda row: -len(row.designation))
+    makers = {row.maker.upper() for row in rows}
     words = text.upper().split()
-    for row in sorted(catalogue.rollers(), key=lambda row: -len(row.designation)):
-        named = [word for word in words if word == row.maker.upper()]
-        squeezed = "".join(word for word in words if word not in named)
-        base = row.designation.upper().replace(" ", "")
-        behind = squeezed[len(base) :]
-        if not squeezed.startswith(base) or behind[:1].isdigit():
-            continue
-        if maker is not None and maker.strip().upper() != row.maker.upper():
-            raise CatalogueError(
-                "catalogue", [Problem("maker", f'"{maker}" is not a maker of {row.designation}; maker: {row.maker}')]
-            )
-        return RollerDesignation(row, text, _clearance(behind, row))
-    return None
+    named = [word for word in words if word in makers]
+    squeezed = "".join(word for word in words if word not in named)
+    found = [row for row in rows if _begins(squeezed, row.designation)]
+    if not found:
+        return None
+    same = [row for row in found if row.designation == found[0].designation]
+    asked = maker.strip() if maker is not None else next(iter(named), None)
+    own = [row for row in same if asked is None or row.maker.upper() == asked.upper()]
+    if not own:
+        known = ", ".join(row.maker for row in same)
+        sentence = f'"{asked}" is not a maker of {same[0].designation} in the catalogue; makers: {known}'
+        raise CatalogueError("catalogue", [Problem("maker", sentence)])
+    base = own[0].designation.replace(" ", "")
+    return RollerDesignation(own[0], text, _clearance(squeezed[len(base) :], own[0]))
+
+
+def _begins(squeezed: str, designation: str) -> bool:
+    """Return whether a text begins with a designation.
+
+    Another digit behind it would make it another bearing.
+    """
+    base = designation.upper().replace(" ", "")
+    return squeezed.startswith(base) and not squeezed[len(base) :][:1].isdigit()
 
 
 def _clearance(behind: str, row: RollerRow) -> str | None:
