@@ -53,12 +53,12 @@ class Begun(Protocol):
         """Return the modes of a shaft; None without one."""
 
 
-def begin(model: BearingModel | MachineModel, announce: Announce = None, *, leads_cages: bool = False) -> Begun:
+def begin(model: BearingModel | MachineModel, announce: Announce = None, *, guides_cages: bool = False) -> Begun:
     """Return a model in equilibrium at t = 0.
 
     Parameters
     ----------
-    leads_cages : bool
+    guides_cages : bool
         Whether cages follow their kinematic paths: centred, at the mean orbital speed of the balls.
 
     Raises
@@ -68,10 +68,10 @@ def begin(model: BearingModel | MachineModel, announce: Announce = None, *, lead
     """
     with naming_laws(*model.bearing_models.values()):
         if isinstance(model, BearingModel):
-            return _begin_bearing(model, announce, leads_cages=leads_cages)
+            return _begin_bearing(model, announce, guides_cages=guides_cages)
         from lambda_core.runs.machine_beginning import begin_machine
 
-        return begin_machine(model, announce, leads_cages=leads_cages)
+        return begin_machine(model, announce, guides_cages=guides_cages)
 
 
 @dataclass(frozen=True)
@@ -113,10 +113,10 @@ class BegunBearing:
         """Return nothing: a bearing alone has no shaft."""
 
 
-def _begin_bearing(model: BearingModel, announce: Announce, *, leads_cages: bool) -> BegunBearing:
+def _begin_bearing(model: BearingModel, announce: Announce, *, guides_cages: bool) -> BegunBearing:
     found = start = solve(model, announce=announce)
     moving = model
-    if leads_cages:
+    if guides_cages:
         moving = with_locked_cage(model, found)
         start = solve(moving, announce=announce)
     return BegunBearing(model, (found,), bearing_start(start, moving))

@@ -155,7 +155,7 @@ def _started(model: BearingModel | MachineModel, free_cage: bool, announce: Call
 
     Its cages are guided unless they are free.
     """
-    begun = begin(model, announce, leads_cages=not free_cage)
+    begun = begin(model, announce, guides_cages=not free_cage)
     if all(found.relative_speed == 0.0 for found in begun.equilibria):
         raise SolverError("the rings stand still, so there is no power to compare: give operation.speed")
     orbit = min(abs(found.orbit) for found in begun.equilibria)

@@ -80,6 +80,6 @@ class BegunMachine:
         return modes_of(self.start.machine, self.start.state)
 
 
-def begin_machine(machine: MachineModel, announce: Callable[[str], None] | None, *, leads_cages: bool) -> BegunMachine:
+def begin_machine(machine: MachineModel, announce: Callable[[str], None] | None, *, guides_cages: bool) -> BegunMachine:
     """Return a machine in equilibrium; see :func:`.beginning.begin`."""
-    return BegunMachine(machine_start(machine, announce, leads_cages=leads_cages))
+    return BegunMachine(machine_start(machine, announce, guides_cages=guides_cages))

@@ -73,7 +73,7 @@ class MachineStart:
 
 
 def machine_start(
-    machine: MachineModel, announce: Announce = None, *, is_given: bool = False, leads_cages: bool = False
+    machine: MachineModel, announce: Announce = None, *, is_given: bool = False, guides_cages: bool = False
 ) -> MachineStart:
     """Return a machine in equilibrium at t = 0.
 
@@ -83,7 +83,7 @@ def machine_start(
     ----------
     is_given : bool
         Whether another program gives loads and speed.
-    leads_cages : bool
+    guides_cages : bool
         Whether cages follow their kinematic paths: centred, at the mean orbital speed of the balls.
 
     Raises
@@ -93,10 +93,10 @@ def machine_start(
     """
     state, shaft = solve_machine(machine, announce), lump(machine)
     # where cages follow given paths, balls begin between rings at the poses of the equilibrium
-    equilibria = tuple(ring.at_pose() if leads_cages else ring.equilibrium() for ring in state.rings)
+    equilibria = tuple(ring.at_pose() if guides_cages else ring.equilibrium() for ring in state.rings)
     alone = [_free(found.context) for found in equilibria]
-    begun = _begun(machine, shaft, state, equilibria, alone, is_given=is_given, leads_cages=leads_cages)
-    if leads_cages or state.rings[0].alone is None:
+    begun = _begun(machine, shaft, state, equilibria, alone, is_given=is_given, guides_cages=guides_cages)
+    if guides_cages or state.rings[0].alone is None:
         return begun
     return replace(begun, motion=replace(begun.motion, state=initial_state(equilibria[0])))
 
@@ -116,19 +116,19 @@ def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
 
 def _begun(
     machine: MachineModel, shaft: LumpedShaft, state: MachineState, equilibria: tuple[Equilibrium, ...],
-    alone: list[SolverContext], *, is_given: bool, leads_cages: bool = False,
+    alone: list[SolverContext], *, is_given: bool, guides_cages: bool = False,
 ) -> MachineStart:  # fmt: skip
     """Return a machine at t = 0.
 
     It is in an equilibrium, and each bearing has a context of its own.
     """
     assembly = machine_assembly(machine, shaft, [(one.kernels, one.frame, one.oils) for one in alone])
-    context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if leads_cages else assembly)
+    context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if guides_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
     given = machine_inputs(machine, shaft, context) if is_given else None
     changes = any(term.kind != "constant" for function in machine.prescribed_motions for term in function.terms)
-    changes = changes or leads_cages or (given is not None and given.turns)
+    changes = changes or guides_cages or (given is not None and given.turns)
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
         one.model.output.interval or usual_interval(one.model, found.orbit)
