@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, given_range, varied
-from lambda_core.analysis.band.model_band import bands_of_machine, deviations, effects_in
+from lambda_core.analysis.band.loaded import loaded_in
+from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     STIFFNESSES,
@@ -185,7 +186,8 @@ class MachineSubject:
         """
         point, found, own = _solved(self.case_toml, tuple(changes)), {}, tuple(fitted)
         sizes: dict[tuple[str, str], float] = {}
-        for number, one in enumerate(point.model.bearings):
+        loaded = loaded_in(point.model, point.state)
+        for one in point.model.bearings:
             wanted = [name for name in names if self._readers[name][0] in ("", one.name)]
             kinds = [kind for kind in _BANDED if any(name.endswith(kind) for name in wanted)]
             if not kinds:
@@ -193,7 +195,7 @@ class MachineSubject:
             prefix = f"bearings.{one.name}."
             local = [path.removeprefix(prefix) for path in own]
             without = [*local, *(f"bearing.{path}" for path in local)]
-            effects = effects_in(point.model, point.state, number, kinds, without)
+            effects = effects_of(loaded[one.name], kinds, point.model.found_temperatures, without)
             sizes |= {(one.name, kind): size for kind, size in deviations(effects, kinds).items()}
         for name in names:
             owner, measured = self._readers[name]
@@ -215,7 +217,7 @@ class MachineSubject:
         if not wanted:
             return {}
         point, found = _solved(self.case_toml, tuple(changes)), {}
-        each = bands_of_machine(point.model, point.state, wanted).bearings
+        each = bands_of(point.model, loaded_in(point.model, point.state), wanted).bearings
         for name, kind in kinds.items():
             owner, _ = self._readers[name]
             bands = [band for one in ((owner,) if owner else each) for band in each[one].bands if band.quantity == kind]

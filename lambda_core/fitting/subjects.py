@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, varied
-from lambda_core.analysis.band.model_band import band_alone, deviations, effects_alone
+from lambda_core.analysis.band.loaded import loaded_bearings
+from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     MEASURED,
@@ -121,13 +122,13 @@ class BearingSubject:
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return the relative standard deviation of each quantity."""
         model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
-        return deviations(effects_alone(model, names, fitted), names, model.found_temperatures)
+        (bearing,), found = loaded_bearings(model).values(), model.found_temperatures
+        return deviations(effects_of(bearing, names, found, fitted), names, found)
 
     def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
         """Return both ends of each quantity's model band."""
-        found = band_alone(
-            ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True), names
-        )
+        model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
+        (found,) = bands_of(model, loaded_bearings(model), names).bearings.values()
         return {one.quantity: [one.low, one.high] for one in found.bands}
 
 

@@ -208,7 +208,8 @@ class QuasiStatic(BearingStatics, StaticAnswer):
 
     def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
         """Return the same with the model band of the bearing."""
-        return self.with_band(bands[ALONE])
+        (own,) = bands.values()
+        return self.with_band(own)
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines of text in some units.

@@ -86,9 +86,9 @@ def quasistatic(
         answer = quasistatic_of(found, rating_of(found, registry().methods))
         if not band:
             return answer
-        from lambda_core.analysis.band.model_band import band_or_reason
+        from lambda_core.analysis.band.model_band import bands_or_reason
 
-        return answer.with_band(band_or_reason(model))
+        return answer.with_bands(bands_or_reason(model).bearings)
 
 
 def _roller_answer(
@@ -116,9 +116,9 @@ def _roller_answer(
     answer = answer.model_copy(update={"warnings": told})
     if not band:
         return answer
-    from lambda_core.analysis.band.model_band import band_or_reason
+    from lambda_core.analysis.band.model_band import bands_or_reason
 
-    return answer.with_band(band_or_reason(warm))
+    return answer.with_bands(bands_or_reason(warm).bearings)
 
 
 @answers

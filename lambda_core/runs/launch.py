@@ -175,12 +175,15 @@ def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | No
 
     They are the model bands of each bearing.
     """
-    from lambda_core.analysis.band.model_band import bands_of_bearings
+    from lambda_core.analysis.band.model_band import bands_or_reason
 
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    bands = bands_of_bearings(model, ALONE)
-    origins = {name: dataclasses.replace(origin, band=bands[name]) for name, origin in provenance.bearings.items()}
+    bands = bands_or_reason(model).bearings.values()
+    origins = {
+        name: dataclasses.replace(origin, band=band)
+        for (name, origin), band in zip(provenance.bearings.items(), bands, strict=True)
+    }
     return dataclasses.replace(provenance, bearings=origins)
 
 

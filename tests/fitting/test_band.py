@@ -328,6 +328,11 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
     assert alone.around(found.bearings[0].friction_torque_Nmm) == pytest.approx(each[0])
 
 
+def test_a_bearing_alone_takes_no_name() -> None:
+    with pytest.raises(UsageError, match='leave out bearing "left"'):
+        api.model_band("6319-cp10-1500", quantities=TORQUE, bearing="left")
+
+
 @pytest.mark.parametrize("path", ["loss_factor", "tau_eyring", "roughness", "lubricant.temperature", "clearance"])
 def test_a_changed_model_is_the_resolved_changed_case(path: str) -> None:
     """Compare the band's short way with a resolved case.

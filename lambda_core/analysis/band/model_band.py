@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from functools import partial
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from lambda_core.analysis.band.effects import Effect, Effects
+from lambda_core.analysis.band.loaded import LoadedBearing, loaded_bearings, loaded_in
 from lambda_core.analysis.band.readings import READ, UNITS_OF
 from lambda_core.analysis.band.temperature_effects import GIVEN, LOSS, BearingEffects, following
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
-from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import (
     COVERAGE,
     QUANTITIES,
@@ -25,11 +24,11 @@ from lambda_core.results.model_band import (
     ModelBand,
     temperature_of,
 )
-from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 if TYPE_CHECKING:
     from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
     from lambda_core.case.case_io import Source
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.machine_statics import MachineState
 
@@ -80,134 +79,81 @@ def model_band(
     ----------
     First-order propagation with uniform distributions: JCGM 100:2008, sections 4.3.7 and 5.1.2.
     """
-    from lambda_core.case.case_io import is_machine
+    from lambda_core.analysis.rotor.bearing_alone import bearing_number
+    from lambda_core.analysis.thermal.temperatures import ready
 
     for name in quantities:
         if name not in READ:
             raise UsageError(unknown_name("quantity of the model band", name, READ))
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    if is_machine(source):
-        from lambda_core.analysis.thermal.temperatures import ready_machine_of
-
-        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-        return _of_machine(machine, quantities, bearing, announce)
-    from lambda_core.analysis.thermal.temperatures import ready_model
-
-    return band_alone(ready_model(source, overrides, announce, is_static=True), quantities)  # type: ignore[arg-type]
+    model = ready(source, overrides, announce, is_static=True)
+    number = None if bearing is None else bearing_number(model, bearing)
+    bands = bands_of(model, loaded_bearings(model, announce), quantities, number)
+    return bands.bearings.get(bearing or "", bands)  # a bearing alone has the empty name
 
 
-def _of_machine(
-    machine: MachineModel, quantities: Sequence[str], bearing: str | None, announce: Callable[[str], None] | None
-) -> ModelBand | MachineBand:
-    from lambda_core.analysis.rotor.bearing_alone import bearing_number
-    from lambda_core.solver.drivers.machine_statics import solve_machine
+def bands_or_reason(model: BearingModel | MachineModel, state: MachineState | None = None) -> MachineBand:
+    """Return the bands of all bearings or their absence.
 
-    number = None if bearing is None else bearing_number(machine, bearing)
-    bands = bands_of_machine(machine, solve_machine(machine, announce), quantities, number)
-    return bands if bearing is None else bands.bearings[bearing]
-
-
-def bands_of_bearings(model: BearingModel | MachineModel, alone: str) -> dict[str, ModelBand]:
-    """Return the band of each bearing by its name.
-
-    `alone` is the name of one that is no machine.
+    `state` is the equilibrium of a machine that is solved already.
     """
-    if isinstance(model, BearingModel):
-        return {alone: band_or_reason(model)}
-    from lambda_core.solver.drivers.machine_statics import solve_machine
-
-    return bands_or_reason(model, solve_machine(model)).bearings
-
-
-def band_or_reason(model: BearingModel) -> ModelBand:
-    """Return the band of a bearing or its absence."""
     try:
-        return band_alone(model)
+        loaded = loaded_bearings(model) if state is None else loaded_in(cast("MachineModel", model), state)
+        return bands_of(model, loaded)
     except SolverError as error:
-        return _without(model.name, error)
+        absent = ModelBand(case=model.name, coverage=COVERAGE, bands=[], left_out=[f"no model band: {error}"])
+        return MachineBand(case=model.name, bearings=dict.fromkeys(model.bearing_models, absent))
 
 
-def bands_or_reason(machine: MachineModel, state: MachineState) -> MachineBand:
-    """Return the bands of a machine or their absence."""
-    try:
-        return bands_of_machine(machine, state)
-    except SolverError as error:
-        bands = {one.name: _without(machine.name, error) for one in machine.bearings}
-        return MachineBand(case=machine.name, bearings=bands)
-
-
-def _without(case: str, error: SolverError) -> ModelBand:
-    return ModelBand(case=case, coverage=COVERAGE, bands=[], left_out=[f"no model band: {error}"])
-
-
-def bands_of_machine(
-    machine: MachineModel, state: MachineState, quantities: Sequence[str] = QUANTITIES, number: int | None = None
+def bands_of(
+    model: BearingModel | MachineModel,
+    loaded: Mapping[str, LoadedBearing],
+    quantities: Sequence[str] = QUANTITIES,
+    number: int | None = None,
 ) -> MachineBand:
-    """Return the bands of a solved machine's bearings.
+    """Return the bands of a model's bearings.
 
     They may also be the band of one of the bearings.
 
     The loads that shaft and gears put on a bearing count as known.
     """
-    found, names = machine.found_temperatures, [one.name for one in machine.bearings]
+    found, names = model.found_temperatures, list(loaded)
     # computed temperatures join the bearings
-    chosen = range(len(names)) if number is None or found is not None else (number,)
-    each = [effects_in(machine, state, i, quantities) for i in chosen]
-    bands = dict(zip([names[i] for i in chosen], _bands(each, quantities, found, names), strict=True))
-    return MachineBand(case=machine.name, bearings=bands if number is None else {names[number]: bands[names[number]]})
-
-
-def effects_in(
-    machine: MachineModel, state: MachineState, i: int, quantities: Sequence[str], without: Iterable[str] = ()
-) -> BearingEffects:
-    """Return the effects on results of a machine's bearing."""
-    from lambda_core.analysis.rotor.bearing_alone import alone_under_load
-
-    ring, found = state.rings[i], machine.found_temperatures
-    if isinstance(ring, RollerReaction):
-        from lambda_core.analysis.band.roller_band import RollerEffects
-        from lambda_core.analysis.rotor.rollers_on_shaft import taken_out
-
-        return _asked(partial(RollerEffects, machine.bearings[i].model, taken_out(ring)), quantities, found, without)
-    return _asked(partial(Effects, alone_under_load(machine, state, i)), quantities, found, without)
+    chosen = names if number is None or found is not None else [names[number]]
+    each = [effects_of(loaded[name], quantities, found) for name in chosen]
+    bands = dict(zip(chosen, _bands(each, quantities, found, names), strict=True))
+    return MachineBand(case=model.name, bearings=bands if number is None else {names[number]: bands[names[number]]})
 
 
 def temperature_band(model: BearingModel | MachineModel) -> ModelBand:
     """Return the bands of all computed temperatures [degC]."""
-    if isinstance(model, BearingModel):
-        each, labels = [effects_alone(model, ())], [""]
-    else:
-        from lambda_core.solver.drivers.machine_statics import solve_machine
-
-        state, labels = solve_machine(model), [one.name for one in model.bearings]
-        each = [effects_in(model, state, i, ()) for i in range(len(labels))]
-    _, warmer = _effects(each, model.found_temperatures, labels)
-    bands = list(node_bands(model.found_temperatures, warmer).values()) if warmer else []
+    loaded, found = loaded_bearings(model), model.found_temperatures
+    each = [effects_of(one, (), found) for one in loaded.values()]
+    _, warmer = _effects(each, found, list(loaded))
+    bands = list(node_bands(found, warmer).values()) if warmer else []
     left_out = list(dict.fromkeys(sentence for one in each for sentence in one.left_out))
     return ModelBand(case=model.name, coverage=COVERAGE, bands=bands, left_out=left_out)
 
 
-def band_alone(model: BearingModel, quantities: Sequence[str] = QUANTITIES) -> ModelBand:
-    """Return the band of a bearing that is alone.
+def effects_of(
+    bearing: LoadedBearing,
+    quantities: Sequence[str],
+    found: FoundTemperatures | None = None,
+    without: Iterable[str] = (),
+) -> BearingEffects:
+    """Return the effects on the results asked for.
 
-    For rollers it is the band of their quasi-static answer.
+    Computed temperatures need the loss, and no range of a given temperature.
     """
-    return _bands([effects_alone(model, quantities)], quantities, model.found_temperatures)[0]
-
-
-def effects_alone(model: BearingModel, quantities: Sequence[str], without: Iterable[str] = ()) -> BearingEffects:
-    """Return the effects on results of a bearing alone."""
-    found = model.found_temperatures
-    if model.rollers is None:
-        return _asked(partial(Effects, model), quantities, found, without)
+    names = [name for name in quantities if name not in TEMPERATURES]
+    if found is not None:
+        names, without = [*names, *([] if LOSS in names else [LOSS])], (*without, *GIVEN)
+    if bearing.rollers is None:
+        return Effects(bearing.model, names, without)
     from lambda_core.analysis.band.roller_band import RollerEffects
-    from lambda_core.case.case_io import parse_case
-    from lambda_core.model.roller_case import roller_model
 
-    rollers = roller_model(parse_case(model.case_toml, model.name))
-    assert rollers is not None  # the model has them from this case
-    return _asked(partial(RollerEffects, model, rollers), quantities, found, without)
+    return RollerEffects(bearing.model, bearing.rollers, names, without)
 
 
 def deviations(
@@ -229,22 +175,6 @@ def deviations(
 
 def _size(effects: Sequence[Effect], index: int) -> float:
     return math.sqrt(sum(float(effect.variance[index]) for effect in effects))
-
-
-def _asked(
-    effects: Callable[..., BearingEffects],
-    quantities: Sequence[str],
-    found: FoundTemperatures | None,
-    without: Iterable[str] = (),
-) -> BearingEffects:
-    """Return the effects on the results asked for.
-
-    Computed temperatures need the loss, and no range of a given temperature.
-    """
-    names = [name for name in quantities if name not in TEMPERATURES]
-    if found is None:
-        return effects(names, without=without)
-    return effects([*names, *([] if LOSS in names else [LOSS])], without=(*without, *GIVEN))
 
 
 def _bands(

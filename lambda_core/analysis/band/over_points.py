@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.band.model_band import band_alone, bands_of_machine
+from lambda_core.analysis.band.loaded import loaded_bearings
+from lambda_core.analysis.band.model_band import bands_of
 from lambda_core.analysis.band.neighbours import interpolated, spread_out
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError
-from lambda_core.results.model_band import FIELDS, MachineBand, ModelBand
+from lambda_core.results.model_band import FIELDS, MachineBand
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -46,7 +47,8 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
     logarithms: list[dict[str, list[float]]] = []
     for row in spread_out(places, most) if len(places) else ():
         try:
-            logarithms.append(_logarithms(model_at(row)))
+            model = model_at(row)
+            logarithms.append(_logarithms(bands_of(model, loaded_bearings(model))))
         except LambdaError:  # this point has no solution, or only its result is known
             continue
         known.append(row)
@@ -59,35 +61,17 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
     return found
 
 
-def _logarithms(model: BearingModel | MachineModel) -> dict[str, list[float]]:
+def _logarithms(found: MachineBand) -> dict[str, list[float]]:
     """Return the logarithms of both ends.
 
-    They are relative to the value of each result.
-    """
-    from lambda_core.model.machine_model import MachineModel
-
-    if isinstance(model, MachineModel):
-        from lambda_core.solver.drivers.machine_statics import solve_machine
-
-        return _of_machine(bands_of_machine(model, solve_machine(model)))
-    return _of_bearing(band_alone(model))
-
-
-def _of_bearing(found: ModelBand, prefix: str = "") -> dict[str, list[float]]:
-    return {
-        f"{prefix}{FIELDS[one.quantity]}": np.log([one.low / one.value, one.high / one.value]).tolist()
-        for one in found.bands
-    }
-
-
-def _of_machine(found: MachineBand) -> dict[str, list[float]]:
-    """Return the logarithms of all bearings.
-
-    Each bearing has its name before them; the last ones are of all bearings together.
+    They are relative to the value of each result. The results of a bearing have its name before them; the last ones are
+    of all bearings together.
     """
     logarithms: dict[str, list[float]] = {}
     for name, band in found.bearings.items():
-        logarithms |= _of_bearing(band, f"{name}.")
+        prefix = f"{name}." if name else ""
+        for one in band.bands:
+            logarithms[prefix + FIELDS[one.quantity]] = np.log([one.low / one.value, one.high / one.value]).tolist()
     for total, ends in found.fields().items():
         field = total.removesuffix("_band")
         each = [one.value for band in found.bearings.values() for one in band.bands if FIELDS[one.quantity] == field]
