@@ -195,6 +195,7 @@ class MachineBearing(Bearing, Placed):
     """
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
+        **Bearing.INSTEAD,
         **Placed.INSTEAD,
         **{f"hold_{dof}": f'write support.{dof} = "locked", "free" or a stiffness' for dof in POSE},
         **{f"motion_{dof}": f"write support.{dof} = {{ motion = ... }}" for dof in POSE},

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Annotated, Any, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Tag, field_validator, model_validator
 
@@ -119,6 +120,12 @@ class PartTemperatures(Section):
 
 class Bearing(Section):
     """Bearing and its clearance."""
+
+    INSTEAD: ClassVar[Mapping[str, str]] = dict.fromkeys(
+        ("kind", "type"),
+        'the designation decides it ("7208B", "NU 208"), or [bearing.geometry] with contact_angle, rows and '
+        "arrangement of balls, or [bearing.rollers] with kind",
+    )
 
     designation: str | None = option(
         None,

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lambda_core.catalogue.protocol import Catalogue, RollerRow
-from lambda_core.domain.errors import CatalogueError, Problem
+from lambda_core.domain.errors import CatalogueError, Problem, nearest
 
-# Suffixes of cages and designs that change no number of the quasi-static answer (SKF, Rolling bearings, 2018).
-_SUFFIX = re.compile(r"(EC|ECP|ECJ|ECM|ECML|ECPH|E|J|J2|JA|X|Q|QA|QCL7C|V|CV|M|TVP2|TN9|CN|C[2-5])")
-_CLEARANCE = re.compile(r"C[N2-5]")
+# Suffixes of cages and designs that change no number of the quasi-static answer, and classes of the radial clearance,
+# which a tapered bearing has not (SKF, Rolling bearings, 2018).
+_CLEARANCES = ("CN", "C2", "C3", "C4", "C5")
+_OF_TAPERED = ("J", "J2", "X", "Q", "QA", "QCL7C", "TN9")
+_OF_OTHERS = ("EC", "ECP", "ECJ", "ECM", "ECML", "ECPH", "E", "J", "JA", "V", "CV", "M", "TVP2", "TN9", *_CLEARANCES)
 
 
 @dataclass(frozen=True)
@@ -68,19 +71,19 @@ def _clearance(behind: str, row: RollerRow) -> str | None:
 
     Refuse a suffix that is unknown.
     """
-    found = None
+    found, known = None, _OF_OTHERS if row.contact_angle is None else _OF_TAPERED
     for part in filter(None, re.split(r"[-/., ]+", behind)):
-        taken = _taken(part)
+        taken = _taken(part, known)
         if taken is None:
-            raise CatalogueError(
-                "catalogue",
-                [Problem("designation", f'"{part}" is not a known suffix of {row.designation}: leave it out')],
-            )
-        found = next((suffix for suffix in taken if _CLEARANCE.fullmatch(suffix)), found)
+            close = nearest(part, known)
+            then = f"nearest: {', '.join(close)}" if close else f"known are: {', '.join(known)}"
+            sentence = f'"{part}" is not a known suffix of {row.designation}; {then}'
+            raise CatalogueError("catalogue", [Problem("designation", sentence)])
+        found = next((suffix for suffix in taken if suffix in _CLEARANCES), found)
     return found
 
 
-def _taken(part: str) -> list[str] | None:
+def _taken(part: str, known: Sequence[str]) -> list[str] | None:
     """Return suffixes that are written together.
 
     The longest comes first; the result is None if something is left over.
@@ -88,8 +91,8 @@ def _taken(part: str) -> list[str] | None:
     if not part:
         return []
     for end in range(len(part), 0, -1):
-        if _SUFFIX.fullmatch(part[:end]):
-            rest = _taken(part[end:])
+        if part[:end] in known:
+            rest = _taken(part[end:], known)
             if rest is not None:
                 return [part[:end], *rest]
     return None

@@ -297,6 +297,7 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
     if is_conical(kind) != (values["contact_angle"] is not None):
         ledger.problem("bearing.rollers.contact_angle", "is required for tapered rollers and not allowed for others")
         return None
+    _refuse_angles_and_play(case, is_conical(kind), ledger)
     number = {name: float(value or 0.0) for name, value in values.items()}
     length = number["roller_length"] or number["effective_length"] + 2.0 * _SHORTER * number["roller_diameter"]
     shape: dict[str, Any] = {
@@ -336,6 +337,22 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
     except ValueError as error:
         ledger.problem("bearing.rollers", str(error).replace("`", ""))
         return None
+
+
+def _refuse_angles_and_play(case: Case, conical: bool, ledger: Ledger) -> None:
+    """Refuse options of balls and a tapered bearing's clearance."""
+    bearing = case.bearing
+    if bearing.contact_angle is not None:
+        ledger.problem(
+            "bearing.contact_angle", "is that of ball bearings; of tapered rollers write bearing.rollers.contact_angle"
+        )
+    if bearing.axial_clearance is not None:
+        ledger.problem("bearing.axial_clearance", "is that of ball bearings; rollers have bearing.rollers.end_play")
+    if conical and bearing.clearance is not None:
+        ledger.problem(
+            "bearing.clearance",
+            "a tapered roller bearing has none before it is mounted: its load closes it; leave it out",
+        )
 
 
 def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledger) -> float | None:

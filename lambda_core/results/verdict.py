@@ -13,10 +13,10 @@ from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.model.checks.operating_limits import (
     LARGEST_LIFE_LOAD,
-    MINIMUM_LOAD,
     OIL_TEMPERATURES,
     is_preloaded,
     known_value,
+    minimum_load,
     permissible_tilt,
     ratings,
     relative_speed,
@@ -124,11 +124,11 @@ def limits_of(model: BearingModel) -> Limits:
     dynamic, _ = ratings(model)
     most = known_value(model, "bearing.limiting_speed")
     grease = known_value(model, "lubricant.highest_temperature")
-    kind, rollers = model.geometry.kind.name, model.rollers is not None
+    kind, rollers, least = model.geometry.kind.name, model.rollers is not None, minimum_load(model)
     return Limits(
         speed_rpm=speed,
         limiting_speed_rpm=None if most is None else 30.0 / math.pi * most,
-        minimum_load_N=MINIMUM_LOAD * dynamic if speed and not rollers and not is_preloaded(model) else None,
+        minimum_load_N=least * dynamic if speed and not is_preloaded(model) else None,
         largest_load_N=LARGEST_LIFE_LOAD * dynamic if speed else None,
         pressure_GPa=1e-9 * (HIGHEST_ROLLER_PRESSURE if rollers else highest_pressure(kind)),
         tilt_mrad=1e3 * (ROLLER_TILT if rollers else permissible_tilt(kind)),
@@ -179,7 +179,8 @@ def _general(limits: Limits, found: Found) -> Iterator[Margin]:
     if limits.limiting_speed_rpm is not None:
         yield _margin("n", limits.speed_rpm, limits.limiting_speed_rpm, "1/min", "at most", maker, required=False)
     if load is not None and limits.minimum_load_N is not None:
-        yield _margin("load", load, limits.minimum_load_N, "N", "at least", "SKF: 0.01 C", required=False)
+        basis = "SKF: 0.01 C of balls, 0.02 C of rollers"
+        yield _margin("load", load, limits.minimum_load_N, "N", "at least", basis, required=False)
     if load is not None and limits.largest_load_N is not None:
         yield _margin("P", load, limits.largest_load_N, "N", "at most", "ISO 281: C/2", required=False)
     if found.pressure_GPa is not None:

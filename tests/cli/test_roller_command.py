@@ -182,6 +182,86 @@ def test_a_slip_in_a_designation_names_the_nearest(tmp_path: Path, capsys: pytes
     assert "NU 208" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("designation", "words"),
+    [
+        ("NU 208 X", '"X" is not a known suffix of NU 208; known are: EC, ECP'),
+        ("NU 208 ECQ", '"ECQ" is not a known suffix of NU 208; nearest: EC, ECP'),
+        ("32216 C3", '"C3" is not a known suffix of 32216'),
+    ],
+)
+def test_suffixes_of_another_kind_of_rollers_are_unknown(
+    designation: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Refuse X at cylindrical bearings, clearance classes at tapered ones."""
+    out = tmp_path / "new.toml"
+    assert main(["init", "new", "--bearing", designation, "--out", str(out)]) == 3
+    assert words in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("designation", "change", "words"),
+    [
+        ("NU 208", "bearing.contact_angle=20 deg", "is that of ball bearings; of tapered rollers write"),
+        ("NU 208", "bearing.axial_clearance=20 um", "rollers have bearing.rollers.end_play"),
+        ("32216", "bearing.clearance=C3", "a tapered roller bearing has none before it is mounted"),
+    ],
+)
+def test_options_that_rollers_do_not_have_are_refused(
+    designation: str, change: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Refuse them in all commands.
+
+    They had no effect, and `check` printed the clearance of balls at that angle.
+    """
+    path = case(tmp_path, designation, "3 kN")
+    for verb in ("check", "quasistatic"):
+        assert main([verb, path, "--set", change]) == 3
+        assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["type", "kind"])
+def test_a_kind_of_bearing_is_decided_by_its_designation(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Say so; the nearest option by name was bodies.cage.type."""
+    assert main(["check", case(tmp_path, "NU 208"), "--set", f"bearing.{option}=cylindrical"]) == 3
+    told = capsys.readouterr().err
+    assert f"bearing.{option}" in told
+    assert 'the designation decides it ("7208B", "NU 208")' in told
+    assert "cage" not in told
+
+
+def test_check_warns_of_thrust_that_leaves_cone_and_cup_apart(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Name the least thrust in the words of the equilibrium."""
+    path, sentence = case(tmp_path, "32216", "1 kN"), "a thrust of 1000 N does not hold cone and cup together"
+    assert main(["check", path]) == 0
+    assert sentence in " ".join(capsys.readouterr().out.split())
+    assert main(["quasistatic", path]) == 4
+    assert sentence in capsys.readouterr().err
+    held = ["--set", 'bodies.inner_ring.x={ stiffness = "100 N/um" }']
+    assert main(["check", path, *held]) == 0
+    assert sentence not in " ".join(capsys.readouterr().out.split())
+    assert main(["check", case(tmp_path, "32216", "3 kN")]) == 0
+    assert sentence[:12] not in capsys.readouterr().out
+
+
+def test_rollers_have_the_minimum_load_of_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Compare with SKF: 0.02 C, P = F_r.
+
+    The words were those of balls, 0.01 C.
+    """
+    path = case(tmp_path, "NU 208")
+    for radial, expected in (("1 kN", True), ("1.3 kN", False)):
+        assert main(["check", path, "--set", f"loads.radial={radial}", "--json"]) == 0
+        (told,) = json.loads(capsys.readouterr().out)["warnings"] or ("",)
+        assert ("below the minimum load of roller bearings, 0.02 C = 1.24 kN: rollers may skid" in told) == expected
+        assert "ball" not in told
+
+
 def test_shafts_take_rollers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "shaft.toml"
     path.write_text(

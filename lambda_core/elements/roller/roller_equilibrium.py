@@ -239,21 +239,31 @@ def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -
         raise ValueError(problem)
     radial, least = math.hypot(loads[1], loads[2]), _least_thrust(bearing, loads, held)
     if least > 0.0 and loads[0] <= least:
-        raise ArithmeticError(
-            f"no equilibrium of the rollers: a thrust of {loads[0]:.4g} N does not hold cone and cup together "
-            f"under a radial load of {radial:.4g} N: it must be above F_r tan(a_o) = {least:.4g} N"
-        )
+        raise ArithmeticError(f"no equilibrium of the rollers: {scarce_thrust(radial, float(loads[0]), least)}")
 
 
-def _least_thrust(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> float:
+def least_thrust(bearing: RollerBearing, radial: float) -> float:
     """Return the thrust that a tapered bearing must exceed [N].
 
     sum Q_o sin(a_o) = F_a and sum Q_o cos(a_o) cos(psi) = F_r at the outer raceway, with Q_o >= 0, give
-    F_a >= F_r tan(a_o). Zero where the ring is held, or another kind takes the thrust.
+    F_a >= F_r tan(a_o) of the free ring under a `radial` load. Zero where another kind takes the thrust.
     """
-    if bearing.kind != "tapered" or any(held[:3]) or any(rib.ring != "inner" for rib in bearing.ribs):
+    if not bearing.is_conical or any(rib.ring != "inner" for rib in bearing.ribs):
         return 0.0
-    return math.hypot(loads[1], loads[2]) * math.tan(bearing.angles.outer)
+    return radial * math.tan(bearing.angles.outer)
+
+
+def scarce_thrust(radial: float, axial: float, least: float) -> str:
+    """Say that thrust does not hold a tapered bearing together."""
+    return (
+        f"a thrust of {axial:.4g} N does not hold cone and cup together under a radial load of {radial:.4g} N: it must "
+        f"be above F_r tan(a_o) = {least:.4g} N"
+    )
+
+
+def _least_thrust(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> float:
+    """Return that thrust [N], zero for a held ring."""
+    return 0.0 if any(held[:3]) else least_thrust(bearing, math.hypot(loads[1], loads[2]))
 
 
 def _advice(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> str:

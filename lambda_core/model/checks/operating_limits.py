@@ -16,6 +16,8 @@ import numpy as np
 from lambda_core.domain.elements import BodyName
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.kinds import kinds
+from lambda_core.elements.roller.roller_equilibrium import least_thrust, scarce_thrust
+from lambda_core.elements.roller.roller_ratings import roller_equivalent_load, roller_static_load
 from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
@@ -27,8 +29,10 @@ from lambda_core.model.laws.time_functions import peak
 # What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
 OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
 _ZERO_CELSIUS = 273.15
-# "minimum loads corresponding to 0,01 C should be imposed on ball bearings": SKF, the same, requisite minimum load.
-MINIMUM_LOAD = 0.01  # over the dynamic rating
+# "minimum loads corresponding to 0,02 C should be imposed on roller bearings and minimum loads corresponding to 0,01 C
+# on ball bearings": SKF, the same, requisite minimum load.
+MINIMUM_LOAD = 0.01  # of balls, over the dynamic rating
+MINIMUM_ROLLER_LOAD = 0.02  # over the dynamic rating
 # Loads above 0.1 C are heavy or very heavy in the tables of seats: SKF, the same, magnitude of the load.
 HEAVY_LOAD = 0.1  # over the dynamic rating
 # ISO 281:2007, 5.1: the life equations hold up to P = 0.5 C.
@@ -173,6 +177,11 @@ def is_preloaded(model: BearingModel) -> bool:
     return model.geometry.clearance < 0.0
 
 
+def minimum_load(model: BearingModel) -> float:
+    """Return the least load of balls or rollers over C."""
+    return MINIMUM_LOAD if model.rollers is None else MINIMUM_ROLLER_LOAD
+
+
 def unbacked(elastic: Mapping[BodyName, RingWaves], load: float, rating: float) -> Iterator[str]:
     """Warn of a heavily loaded ring without support."""
     if load <= HEAVY_LOAD * rating:
@@ -188,7 +197,17 @@ def unbacked(elastic: Mapping[BodyName, RingWaves], load: float, rating: float) 
 
 def _load(model: BearingModel) -> list[str]:
     loads = applied_load(model)
-    return [] if loads is None else list(load_warnings(model, *loads))
+    return [] if loads is None else [*_scarce_thrust(model, *loads), *load_warnings(model, *loads)]
+
+
+def _scarce_thrust(model: BearingModel, radial: float, axial: float) -> Iterator[str]:
+    """Warn of thrust that leaves cone and cup apart."""
+    along = model.inner_ring.dofs["x"]
+    if model.rollers is None or along.mode != "free" or along.stiffness > 0.0:
+        return
+    least = least_thrust(model.rollers, radial)
+    if axial <= least and least > 0.0:
+        yield scarce_thrust(radial, axial, least)
 
 
 def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[str]:
@@ -197,22 +216,17 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
     The bearing carries them, radially and axially [N].
     """
     dynamic, static = ratings(model)
-    g = model.geometry
-    gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
-    factor = static_factor(gamma, on_sphere=g.kind.on_sphere)
-    equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, on_sphere=g.kind.on_sphere).load
-    resting = static_equivalent_load(radial, axial, *kind, on_sphere=g.kind.on_sphere)
-    turns = relative_speed(model) > 0.0
-    if axial < g.kind.least_thrust * radial:
-        yield (
-            f"the axial load of {_force(axial)} is below {g.kind.least_thrust:g} of the radial one: "
-            f"{g.kind.thrust_words}"
-        )
+    kind = model.geometry.kind
+    equivalent, resting = _equivalent_loads(model, static, radial, axial)
+    turns, least = relative_speed(model) > 0.0, minimum_load(model)
+    if axial < kind.least_thrust * radial:
+        yield f"the axial load of {_force(axial)} is below {kind.least_thrust:g} of the radial one: {kind.thrust_words}"
     yield from unbacked(model.elastic, equivalent, dynamic)
-    if turns and not is_preloaded(model) and equivalent < MINIMUM_LOAD * dynamic:
+    if turns and not is_preloaded(model) and equivalent < least * dynamic:
+        element = "ball" if model.rollers is None else "roller"
         yield (
-            f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "
-            f"{_force(MINIMUM_LOAD * dynamic)}: balls may skid"
+            f"the load P = {_force(equivalent)} is below the minimum load of {element} bearings, {least:g} C = "
+            f"{_force(least * dynamic)}: {element}s may skid"
         )
     if resting > static:
         yield (
@@ -221,6 +235,23 @@ def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[
         )
     if turns and equivalent > LARGEST_LIFE_LOAD * dynamic:
         yield f"the load P = {_force(equivalent)} is above C/2 = {_force(0.5 * dynamic)}: ISO 281 gives no life there"
+
+
+def _equivalent_loads(model: BearingModel, static: float, radial: float, axial: float) -> tuple[float, float]:
+    """Return P (ISO 281) and P_0 (ISO 76) [N].
+
+    Thrust on ribs of cylindrical rollers does not count.
+    """
+    rollers = model.rollers
+    if rollers is not None:
+        angle = rollers.contact_angle
+        thrust = axial if angle > 0.0 else 0.0
+        return roller_equivalent_load(radial, thrust, angle).load, roller_static_load(radial, thrust, angle)
+    g = model.geometry
+    gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
+    factor = static_factor(gamma, on_sphere=g.kind.on_sphere)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, on_sphere=g.kind.on_sphere).load
+    return equivalent, static_equivalent_load(radial, axial, *kind, on_sphere=g.kind.on_sphere)
 
 
 def _force(newton: float) -> str:
