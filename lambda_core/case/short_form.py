@@ -9,9 +9,9 @@ from typing import Any, Literal
 from lambda_core.case.case import Case
 from lambda_core.case.machine import OWN, PARTS, SHARED
 from lambda_core.case.motion import RingBody
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.units import show
 
-NAME = "bearing"  # of the one bearing
 _PLACE = "0 mm"  # of the bearing: places count from its middle
 _FREEDOMS = ("x", "y", "z", "tilt_y", "tilt_z")
 _LOADS = {  # on the inner ring, and as loads at a place
@@ -96,14 +96,14 @@ def expand(
     tables: dict[str, Any] = {key: written[key] for key in ("name", "description", "assumptions") if key in written}
     tables |= {
         "operation": _operation(written["operation"], inner.get("spin")),
-        "bearings": {NAME: bearing},
+        "bearings": {ALONE: bearing},
         **{table: written[table] for table in SHARED if table in written},
     }
     loads = _loads(written.get("loads", {}))
     tables |= {"loads": loads} if loads else {}
     support = dict.fromkeys(held, "locked") | {dof: inner[dof] for dof in _FREEDOMS if dof in inner}
     support |= _resistance(inner.get("spin"))
-    tables |= {"shaft": {"support": {"at": NAME, **support}}} if support else {}
+    tables |= {"shaft": {"support": {"at": ALONE, **support}}} if support else {}
     markers = _markers(written.get("markers", {}))
     connections = _connections(written.get("elements", {}), markers)
     tables |= {"connections": connections} if connections else {}
@@ -123,7 +123,7 @@ def _electric(written: Mapping[str, Any], differences: list[str]) -> dict[str, A
     own = {key: grounding.pop(key) for key in _INSULATION if key in grounding}
     found.pop("grounding", None)
     found |= {"grounding": grounding} if grounding else {}
-    return found | ({"bearings": {NAME: own}} if own else {})
+    return found | ({"bearings": {ALONE: own}} if own else {})
 
 
 def _thermal(written: Mapping[str, Any], bearing: dict[str, Any]) -> dict[str, Any]:
@@ -147,7 +147,7 @@ def _thermal(written: Mapping[str, Any], bearing: dict[str, Any]) -> dict[str, A
 
 def _node(name: str) -> str:
     """Return the machine's name of a thermal node."""
-    return f"{NAME}.{name}" if name in (*_OWN_NODES, _SUPPLY) else name
+    return f"{ALONE}.{name}" if name in (*_OWN_NODES, _SUPPLY) else name
 
 
 def _resistance(spin: Any) -> dict[str, Any]:
@@ -173,18 +173,18 @@ def _loads(written: Mapping[str, Any]) -> dict[str, Any]:
     loads: dict[str, Any] = {}
     own = {new: written[old] for old, new in _LOADS.items() if old in written}
     if own:
-        loads["inner-ring"] = {"at": NAME, **own}
+        loads["inner-ring"] = {"at": ALONE, **own}
     if "inner_ring" in written:
-        loads["further"] = {"at": NAME, **written["inner_ring"]}
+        loads["further"] = {"at": ALONE, **written["inner_ring"]}
     for part in PARTS:
         if part in written:
-            loads[part] = {"at": f"{NAME}.{part}", **written[part]}
+            loads[part] = {"at": f"{ALONE}.{part}", **written[part]}
     return loads
 
 
 def _body(name: str) -> str:
     """Return the machine's body of a bearing's place."""
-    return f"{NAME}.{name}" if name in PARTS else "ground" if name == "ground" else "shaft"
+    return f"{ALONE}.{name}" if name in PARTS else "ground" if name == "ground" else "shaft"
 
 
 def _connections(written: Mapping[str, Any], markers: dict[str, dict[str, Any]]) -> dict[str, Any]:
@@ -195,7 +195,7 @@ def _connections(written: Mapping[str, Any], markers: dict[str, dict[str, Any]])
     found = {}
     for name, element in written.items():
         first, second = element.get("first", "ground"), element["second"]
-        at = second if second in markers else NAME if _body(second) == "shaft" else _body(second)
+        at = second if second in markers else ALONE if _body(second) == "shaft" else _body(second)
         to = first if first in markers else _body(first)
         if second in markers and first not in markers:
             centre = {"x": _PLACE, **({} if to == "shaft" else {"body": to})}
@@ -211,7 +211,7 @@ def _disc(written: Mapping[str, Any], bar: tuple[float, float]) -> dict[str, Any
         return {}
     polar, transverse = (show(inertia, "inertia") for inertia in bar)
     disc = {
-        "at": NAME,
+        "at": ALONE,
         "mass": written["shaft_mass"],
         "polar_inertia": written.get("shaft_polar_inertia", polar),
         "transverse_inertia": written.get("shaft_transverse_inertia", transverse),

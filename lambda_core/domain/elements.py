@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+ALONE = "bearing"  # name of the bearing of a case that has one bearing only
 BodyName = Literal["inner_ring", "outer_ring", "cage"]
 BODIES: dict[BodyName, str] = {
     "inner_ring": "inner ring with shaft",

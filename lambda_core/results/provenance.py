@@ -22,12 +22,12 @@ from pydantic import BaseModel
 
 from lambda_core import __version__
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.section_roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.model_band import ModelBand
 from lambda_core.results.rating import Rating
-from lambda_core.results.samples import ALONE
 from lambda_core.views.observer import Event, Observer
 
 if TYPE_CHECKING:

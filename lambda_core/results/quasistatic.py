@@ -12,6 +12,7 @@ from pydantic import Field, PrivateAttr
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
@@ -27,7 +28,6 @@ from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.ring_shape import RingShape, ring_shape
-from lambda_core.results.samples import ALONE
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.arrays import bundle as L

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from lambda_core.domain.channels import Channel
 
 TIME = "time"
-ALONE = "bearing"  # name of the bearing of a case that has one bearing only
 
 
 @dataclass(frozen=True)

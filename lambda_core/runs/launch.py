@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.domain.units import show
@@ -21,7 +22,6 @@ from lambda_core.model.settings.resolve_solver import MOST_TIME
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance, differences, machine_data, model_data
 from lambda_core.results.reader import Result
-from lambda_core.results.samples import ALONE
 from lambda_core.runs.beginning import begin
 from lambda_core.runs.law_blame import BlamingEngine
 from lambda_core.runs.loop import resume, run

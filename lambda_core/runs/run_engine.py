@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.domain.elements import ALONE
 from lambda_core.model.laws.state_channels import result_channels
-from lambda_core.results.samples import ALONE, TIME, RunChannels, Samples
+from lambda_core.results.samples import TIME, RunChannels, Samples
 from lambda_core.runs.machine_channels import MACHINE_CHANNELS
 
 if TYPE_CHECKING:

@@ -24,9 +24,9 @@ from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
-from lambda_core.case.short_form import NAME as ALONE
 from lambda_core.discovery.api import registry
 from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
 from lambda_core.domain.files import read_text
 from lambda_core.domain.number_text import hours_alone, number

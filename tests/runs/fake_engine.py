@@ -18,8 +18,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, LOSSES, Channel
+from lambda_core.domain.elements import ALONE
 from lambda_core.results.provenance import Provenance
-from lambda_core.results.samples import ALONE, RunChannels, Samples
+from lambda_core.results.samples import RunChannels, Samples
 from lambda_core.runs.run_engine import without_time
 from lambda_core.solver.drivers.engine import Advance
 

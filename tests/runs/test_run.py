@@ -15,9 +15,9 @@ from fake_engine import FakeEngine, MakeProvenance, Truth
 
 from lambda_core import api
 from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.results.provenance import Provenance
-from lambda_core.results.samples import ALONE
 from lambda_core.results.summary import Summary
 from lambda_core.runs.loop import run
 from lambda_core.runs.progress import Progress

@@ -14,10 +14,10 @@ from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.pillow_block import bearing_network
 from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.case_io import parse_case
-from lambda_core.case.short_form import NAME
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.elements import ALONE
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checking import resolve
 from lambda_core.model.checks.describe import headline
@@ -37,7 +37,7 @@ class _Alone:
     """
 
     model: BearingModel
-    name: str = NAME
+    name: str = ALONE
     position: float = 0.0
 
 
