@@ -203,6 +203,10 @@ class Loop(ABC):
         """
 
     @abstractmethod
+    def points_of(self, model: BearingModel | MachineModel) -> tuple[Point, ...]:
+        """Return each bearing's point at a model's own temperatures."""
+
+    @abstractmethod
     def grown(self, at: Mapping[str, float]) -> FloatArray:
         """Return the shaft's growth beyond the housing [m].
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -26,7 +26,6 @@ from lambda_core.analysis.thermal.feedback import (
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.analysis.thermal.losses import Announce, Point, model_at, point_of
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
-from lambda_core.analysis.thermal.operating import averaged_losses
 from lambda_core.analysis.thermal.shaft_and_housing import network_of
 from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.case_io import toml_tables
@@ -37,8 +36,10 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.model.machine_model import MachineModel, MountedBearing
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
-from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
 
 _ZERO_CELSIUS = 273.15
 _NEAR = (2.0, 1e-6)  # inlet temperatures [K] and lengths [m] this near to others have their slopes
@@ -136,6 +137,11 @@ class MachineLoop(Loop):
         mounted = zip(self.machine.bearings, inlets, clearances, grown, strict=True)
         return replace(self.machine, bearings=tuple(_warm(*one) for one in mounted))
 
+    def points_of(self, model: BearingModel | MachineModel) -> tuple[Point, ...]:
+        """Return each bearing's point at a model's own temperatures."""
+        state = solve_machine(cast("MachineModel", model), self._announce)
+        return tuple(point_of(ring.equilibrium()) for ring in state.rings)
+
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
         """Solve shaft and bearings, return each bearing's point.
 
@@ -213,26 +219,6 @@ def _warm(mounted: MountedBearing, inlet: float, clearance: float, grown: float)
     model = model_at(model, inlet, clearance)
     shift = (seating.shift[0] - grown, *seating.shift[1:])
     return replace(mounted, model=model, seating=replace(seating, shift=shift))
-
-
-def of_run(result: Result, announce: Announce = None) -> tuple[MachineLoop, Steady]:
-    """Return the steady temperatures of a machine's run.
-
-    They follow from its averaged losses, including the cages.
-
-    Conductances are those of the equilibrium at the temperatures that the run was made with.
-    """
-    machine = resolve_machine(toml_tables(result.case_toml, str(result.path)))
-    loop = MachineLoop(without_temperatures(machine), announce)
-    state = solve_machine(machine, announce)
-    measured = tuple(
-        point_of(ring.equilibrium()).with_losses(averaged_losses(result.of_bearing(bearing.name), bearing.model))
-        for ring, bearing in zip(state.rings, machine.bearings, strict=True)
-    )
-    temperatures, network = loop.answer(measured, loop.first_guess())
-    seen = loop.seen(temperatures)
-    slopes = loop.slopes(seen, loop.solved(seen), temperatures)
-    return loop, Steady(temperatures, measured, network, loop.gain(*slopes), 1, *slopes)
 
 
 def without_temperatures(machine: MachineModel) -> MachineModel:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,15 +17,15 @@ from lambda_core.analysis.thermal.surroundings import housing_area
 from lambda_core.case.case_io import parse_case
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.elements import ALONE
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.checking import resolve
 from lambda_core.model.checks.describe import headline
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.settings.resolve_thermal import network_assumptions
-from lambda_core.results.convergence import window
-from lambda_core.results.reader import Result
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
 
 _ZERO_CELSIUS = 273.15
 
@@ -76,6 +77,11 @@ class BearingLoop(Loop):
         at = self.nodes.named(temperatures)
         return np.array([inlet_at(self.thermal, at), clearance_at(self.model, at)])
 
+    def points_of(self, model: BearingModel | MachineModel) -> tuple[Point, ...]:
+        """Return the point at the temperatures of a model."""
+        (own,) = model.bearing_models.values()
+        return (self.losses.at(own.oil.temperature, own.geometry.clearance),)
+
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
         """Solve and return the quasi-static point; see :meth:`Losses.at`."""
         return (self.losses.at(*seen.tolist()),)
@@ -112,38 +118,3 @@ class BearingLoop(Loop):
     def count(self) -> int:
         """Quasi-static points that were solved."""
         return self.losses.count
-
-
-def of_run(result: Result, announce: Announce = None) -> tuple[BearingLoop, Steady]:
-    """Return the steady temperatures of a run.
-
-    They follow from its averaged losses, including the cage.
-
-    Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
-    loop is that of the quasi-static point too.
-
-    Parameters
-    ----------
-    result : Result
-        A run.
-    """
-    case = parse_case(result.case_toml, str(result.path))
-    model = resolve(case)
-    loop = BearingLoop(model, case.thermal, announce)
-    point = loop.losses.at(model.oil.temperature, model.geometry.clearance)
-    losses = averaged_losses(result, model)
-    measured = point.with_losses(losses)
-    temperatures, network = loop.answer((measured,), loop.first_guess())
-    seen = np.array([point.inlet, point.clearance])
-    slopes = loop.slopes(seen, (point,), temperatures)
-    return loop, Steady(temperatures, (measured,), network, loop.gain(*slopes), 1, *slopes)
-
-
-def averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
-    """Return a bearing's average losses by mechanism in a run.
-
-    They are in W.
-    """
-    chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
-    time = chosen.change("time")
-    return {name: chosen.change(f"loss.{name}") / time for name in LOSSES}

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from lambda_core.analysis.rotor.api import machine_of
-from lambda_core.case.case_io import is_machine
+from lambda_core.case.case_io import is_machine, toml_tables
 from lambda_core.model.checking import model_of
 
 if TYPE_CHECKING:
@@ -40,12 +40,31 @@ def of_run(result: Result, announce: Callable[[str], None] | None = None) -> tup
     """Return the loop of a run and its steady temperatures.
 
     They follow from its averaged losses, including the cage.
-    """
-    from lambda_core.analysis.thermal import machine_temperatures, operating
 
-    if result.is_machine:
-        return machine_temperatures.of_run(result, announce)
-    return operating.of_run(result, announce)
+    Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
+    loop is that of the quasi-static point at the temperatures found.
+    """
+    from lambda_core.analysis.thermal.feedback import Steady
+
+    model = resolved(toml_tables(result.case_toml, str(result.path)))
+    loop = loop_of(model, (), announce)
+    runs = zip(result.bearings.values(), model.bearing_models.values(), strict=True)
+    losses = [_averaged_losses(one, own) for one, own in runs]
+    measured = tuple(point.with_losses(own) for point, own in zip(loop.points_of(model), losses, strict=True))
+    temperatures, network = loop.answer(measured, loop.first_guess())
+    seen = loop.seen(temperatures)
+    slopes = loop.slopes(seen, loop.solved(seen), temperatures)
+    return loop, Steady(temperatures, measured, network, loop.gain(*slopes), 1, *slopes)
+
+
+def _averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
+    """Return a bearing's average losses in a run [W]."""
+    from lambda_core.domain.channels import LOSSES
+    from lambda_core.results.convergence import window
+
+    chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
+    time = chosen.change("time")
+    return {name: chosen.change(f"loss.{name}") / time for name in LOSSES}
 
 
 def resolved(
