@@ -272,6 +272,11 @@ def _section(piece: str | Mapping[str, Any]) -> dict[str, Any]:
     """Return a shaft's piece of ``"length x diameter"`` as table."""
     if isinstance(piece, Mapping):
         return dict(piece)
+    if not isinstance(piece, str):
+        raise UsageError(
+            f'{type(piece).__name__} is not a section of a shaft; give each section as an argument of its own: '
+            'shaft("30 mm x 40 mm", "50 mm x 30 mm")'
+        )
     words: Iterable[str] = (word.strip() for word in piece.split(" x "))
     values = [word for word in words if word]
     if len(values) not in (2, 3):

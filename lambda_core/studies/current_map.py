@@ -128,6 +128,8 @@ def _read_on(
     if status(folder).pending:
         with closing(Manifest(folder)) as manifest, readable(folder):
             map_axes(manifest.table(), folder)  # before any work on another study
+            model = point_model(manifest.case_toml, Plan(manifest.study).point(0).changes)
+        bearing_number(model, bearing)  # likewise of a bearing that the machine does not have
         resume(folder, where=executor, workers=workers, report=progress)
     return map_of(folder, bearing)
 
@@ -160,8 +162,7 @@ def _study(
 
     case = read_case(source, listed(overrides, "overrides"))
     model = check(case)
-    if bearing is not None:
-        bearing_number(model, bearing)
+    bearing_number(model, bearing)  # before any work on a map that nobody could read
     each = model.bearing_models
     responses = [f"{one}.{name}" if one else name for one in each for name in UNITS]
     fixed: dict[str, bool | int | float | str] = {"operation.temperatures": "given"}

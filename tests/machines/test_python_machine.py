@@ -57,6 +57,8 @@ def test_mistakes_are_named_at_once_or_by_the_case() -> None:
         machine.bearing("left", "SKF 6206", at="10 mm")
     with pytest.raises(UsageError, match="length x diameter"):
         machine.shaft("30 mm")
+    with pytest.raises(UsageError, match="list is not a section of a shaft; give each section as an argument"):
+        machine.shaft(["30 mm x 40 mm"])  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="name and temperature"):
         lb.Machine(speed="3000 rpm", oil="FVA3")
     machine.disc("flywheel", at="10 mm", mas="2 kg")

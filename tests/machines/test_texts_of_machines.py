@@ -14,6 +14,7 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.unit_systems import US
 from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.results.model_band import Band, ModelBand
 
 
 def box() -> dict[str, Any]:
@@ -27,6 +28,16 @@ def test_hold_and_motion_of_a_bearing_name_its_support() -> None:
         api.check(tables)
     assert 'bearings.left.hold_x   is not an option: write support.x = "locked"' in str(caught.value)
     assert "write support.tilt_y = { motion = ... }" in str(caught.value)
+
+
+def test_both_ends_of_a_band_have_the_chosen_unit() -> None:
+    """Convert the low end, too, which has no unit of its own in the line."""
+    found = api.quasistatic(box())
+    torque = Band(quantity="friction torque", unit="N mm", value=100.0, low=90.4, high=113.0, contributors=[])
+    bands = {one.name: ModelBand(case="box", coverage=0.9, bands=[torque], left_out=[]) for one in found.bearings}
+    text = found.with_bands(bands).text(units=US)
+    low, high = re.findall(r"^model band +([\d.]+) \.\. ([\d.]+) lbf in of all bearings", text, re.MULTILINE)[0]
+    assert float(high) / float(low) == pytest.approx(113.0 / 90.4, rel=0.05)
 
 
 def test_lives_are_written_in_one_form() -> None:

@@ -127,7 +127,7 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
 
     The bearings stand side by side, and the shaft follows.
     """
-    own = [units.sentence(line) for line in _shaft_lines(found)]
+    own = [units.sentence(line) for line in _shaft_lines(found, units)]
     judged = [(one.name, one.verdict) for one in found.bearings]
     verdicts = [line(f"verdict {name}", verdict.lines(units)[0]) for name, verdict in judged]
     margins = [line(f"margins {name}", *verdict.lines(units)[1]) for name, verdict in judged if verdict.lines(units)[1]]
@@ -180,7 +180,7 @@ def _grouped(speed: float) -> str:
     return f"{float(f'{speed:.5g}'):.0f}" if speed >= 1e5 else f"{speed:.5g}"
 
 
-def _shaft_lines(report: MachineEquilibrium) -> list[str]:
+def _shaft_lines(report: MachineEquilibrium, units: UnitSystem) -> list[str]:
     """Return the lines about the shaft and the machine."""
     largest = max(
         ((y * y + z * z) ** 0.5, place)
@@ -204,7 +204,7 @@ def _shaft_lines(report: MachineEquilibrium) -> list[str]:
         f"{'system life':<{HEAD}}{_AT_REST if resting else life}",
         *(f"{'modified lives':<{HEAD}}with {text}" for text in sorted(clean)),
         f"{'friction torque':<{HEAD}}{_AT_REST if resting else _torque(report)}",
-        *band_lines(report.friction_torque_Nmm_band, {one.name: one.model_band for one in report.bearings}),
+        *band_lines(report.friction_torque_Nmm_band, {one.name: one.model_band for one in report.bearings}, units),
         f"{'drive torque':<{HEAD}}{digits(report.drive_torque_Nm)} N m",
     ]
     for name, (tangential, radial, axial) in report.gears.items():
