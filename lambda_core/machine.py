@@ -274,7 +274,7 @@ def _section(piece: str | Mapping[str, Any]) -> dict[str, Any]:
         return dict(piece)
     if not isinstance(piece, str):
         raise UsageError(
-            f'{type(piece).__name__} is not a section of a shaft; give each section as an argument of its own: '
+            f"{type(piece).__name__} is not a section of a shaft; give each section as an argument of its own: "
             'shaft("30 mm x 40 mm", "50 mm x 30 mm")'
         )
     words: Iterable[str] = (word.strip() for word in piece.split(" x "))

@@ -198,10 +198,7 @@ def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: p
     assert words in " ".join(capsys.readouterr().err.split())
 
 
-@pytest.mark.full
-def test_a_map_of_a_machine_asks_for_the_bearing_before_it_computes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_map_asks_for_the_bearing_before_it_computes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     case = tmp_path / "box.toml"
     api.init_case("box", template="geared-shaft", path=case)
     assert main(["electric-map", str(case), "--points", "2x2", "--folder", str(tmp_path / "map")]) == 2
@@ -209,6 +206,7 @@ def test_a_map_of_a_machine_asks_for_the_bearing_before_it_computes(
     assert not (tmp_path / "map").exists()
 
 
+@pytest.mark.full
 def test_runs_of_workers_have_the_events_of_a_single_run(tmp_path: Path) -> None:
     """Compare discharges of workers with single runs.
 

@@ -31,7 +31,7 @@ def test_hold_and_motion_of_a_bearing_name_its_support() -> None:
 
 
 def test_both_ends_of_a_band_have_the_chosen_unit() -> None:
-    """Convert the low end, too, which has no unit of its own in the line."""
+    """Convert the low end, too, which has no unit."""
     found = api.quasistatic(box())
     torque = Band(quantity="friction torque", unit="N mm", value=100.0, low=90.4, high=113.0, contributors=[])
     bands = {one.name: ModelBand(case="box", coverage=0.9, bands=[torque], left_out=[]) for one in found.bearings}
