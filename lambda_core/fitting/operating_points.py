@@ -148,7 +148,8 @@ class _Point:
 
 
 ROLLER_QUANTITIES = (
-    "friction torque", "power loss", "cage speed", *(f"displacement {axis}" for axis in "xyz"), *STIFFNESS
+    "friction torque", "power loss", "capacitance", "cage speed", *(f"displacement {axis}" for axis in "xyz"),
+    *STIFFNESS,
 )  # fmt: skip
 
 
@@ -166,6 +167,8 @@ def roller_values(model: RollerModel, warm: BearingModel | None, names: Sequence
     values: dict[str, float] = {}
     if torque is not None:
         values |= {"friction torque": torque, "power loss": 1e-3 * torque * speed}
+    if found.bearing_capacitance_nF is not None:
+        values["capacitance"] = found.bearing_capacitance_nF
     values |= {f"displacement {axis}": found.inner_ring_displacement_um[i] for i, axis in enumerate("xyz")}
     matrix = np.mean([state.stiffness for state in solved.states], axis=0)
     values |= {name: stiffness_reading(name, matrix.tolist()) for name in STIFFNESS}

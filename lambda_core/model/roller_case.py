@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
 from lambda_core.elements.roller.roller_bearing import RollerBearing, is_conical
+from lambda_core.elements.roller.roller_capacitance import Dielectric
 from lambda_core.elements.roller.roller_clearance import roller_clearance
 from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState
 from lambda_core.elements.roller.roller_ratings import (
@@ -32,6 +34,7 @@ from lambda_core.model.bodies.resolve_elastic import bent_rings
 from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
 from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
 from lambda_core.model.checks.operating_limits import speed_warning
+from lambda_core.model.laws.roller_dielectric import dielectric_of_case
 from lambda_core.model.laws.roller_laws import friction_of_case
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger, Status
@@ -103,6 +106,8 @@ class RollerModel:
         Stiffness of what holds the outer ring, inf where it is rigid, (5,) [N/m, N m/rad]; None: rigid everywhere.
     outer_loads : array or None
         On the outer ring, as `loads`; they count where its support is elastic.
+    dielectric : Dielectric or None
+        The oil between electrodes, for the capacitance; None: not known.
     """
 
     name: str
@@ -125,6 +130,7 @@ class RollerModel:
     loose: tuple[str, ...] = ()
     support: FloatArray | None = None
     outer_loads: FloatArray | None = None
+    dielectric: Dielectric | None = None
 
     @property
     def drawing(self) -> FloatArray | None:
@@ -203,7 +209,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         return None
     geometry = roller_geometry(case, found, ledger)
     row, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
-    state = None
+    state, dielectric = None, None
     if row is not None and oil is not None:
         if case.lubricant.properties is not None:
             ledger.problem("lubricant.properties", "roller bearings take an oil of the catalogue: write its name alone")
@@ -211,6 +217,9 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
             law = ledger.ask("lubricant.name", lambda: OilLaw(row, known))
             if law is not None:
                 state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
+            if law is not None and geometry is not None:
+                density = partial(law.density, temperature=oil.temperature)
+                dielectric = dielectric_of_case(case, row, oil, density, geometry, known, ledger)
     geometry = bent_rings(geometry, case, catalogue, ledger) if geometry else None
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held, written = held_directions(case, ledger), friction_of_case(case, known, ledger)
@@ -248,6 +257,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         contamination=contamination,
         assumptions=tuple(ledger.assumptions),
         values=tuple(ledger.values),
+        dielectric=dielectric,
     )
 
 

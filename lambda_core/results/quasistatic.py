@@ -15,6 +15,7 @@ from lambda_core.domain.channels import LOSSES, RINGS
 from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.formulas.between_rings import between_rings
 from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.geometry.axial_play import axial_play
@@ -97,6 +98,9 @@ class BearingStatics(Banded):
     )  # fmt: skip
     film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
     film_parameter: list[float] = same_as(BearingSummary, "film_parameter", "smallest and largest Lambda under load")
+    bearing_capacitance_nF: float | None = same_as(
+        BearingSummary, "bearing_capacitance_nF", "null at rest and where asperities short an element", default=None
+    )
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
     ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
     shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
@@ -317,6 +321,7 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
         "orbit_speed_ratio": finite(_ratio(found)),
         "film_um": span(1e6 * channels["film_central"][carrying]),
         "film_parameter": films,
+        "bearing_capacitance_nF": finite(1e9 * between_rings(channels["capacitance"])),
         "capacitance_note": capacitance_note(load, channels["capacitance"]),
         "ring_shapes": _ring_shapes(found),
         "shoulders": edges,

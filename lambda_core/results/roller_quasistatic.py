@@ -14,6 +14,7 @@ from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.domain.units import show
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing, kind_words
+from lambda_core.elements.roller.roller_capacitance import RollerCapacitance, capacitance
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, amplitudes, waves_by_ring
 from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
@@ -38,6 +39,7 @@ from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
 from lambda_core.results.rating import Rating
 from lambda_core.results.ring_shape import ring_shape
+from lambda_core.results.summary import capacitance_note
 
 if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
@@ -45,8 +47,8 @@ if TYPE_CHECKING:
 _RPM = 30.0 / math.pi
 _ASSUMED = (
     "rollers roll without sliding; the cage is left out",
-    "torque is the mean over four places of the rollers in one pitch; loads, pressures and films are the extremes of "
-    "these; lives and loads of single rollers belong to the place with a roller where the load presses",
+    "torque and capacitance are means over four places of the rollers in one pitch; loads, pressures and films are the "
+    "extremes of these; lives and loads of single rollers belong to the place with a roller where the load presses",
 )
 
 
@@ -62,11 +64,14 @@ class SolvedRollers:
         Kinematics.
     friction : RollerFriction or None
         Mean over the states, see :func:`mean_friction`; None where nothing turns.
+    electric : tuple of RollerCapacitance
+        Over the states; empty where nothing turns, or the oil is not known as a dielectric.
     """
 
     states: tuple[RollerEquilibrium, ...]
     motion: RollerMotion
     friction: RollerFriction | None
+    electric: tuple[RollerCapacitance, ...] = ()
 
     @property
     def state(self) -> RollerEquilibrium:
@@ -98,12 +103,18 @@ def solve_rollers(model: RollerModel, places: Sequence[float] = PLACES) -> Solve
 
 
 def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
-    """Return solved equilibria with the friction of the same loads."""
-    motion = solved.motion
+    """Return equilibria with friction and capacitance."""
+    motion, dielectric = solved.motion, model.dielectric
     if motion.relative == 0.0:
-        return replace(solved, friction=None)
+        return replace(solved, friction=None, electric=())
     parts = [friction(model.bearing, state, motion, model.oil, model.friction) for state in solved.states]
-    return replace(solved, friction=mean_friction(parts))
+    found = replace(solved, friction=mean_friction(parts), electric=())
+    if dielectric is None:
+        return found
+    electric = [
+        capacitance(model.bearing, state, motion, model.oil, model.friction, dielectric) for state in solved.states
+    ]
+    return replace(found, electric=tuple(electric))
 
 
 def roller_quasistatic(model: RollerModel) -> QuasiStatic:
@@ -164,6 +175,8 @@ def roller_statics(model: RollerModel, solved: SolvedRollers) -> dict[str, Any]:
         "ring_shapes": [
             ring_shape(ring, waves.counts, amplitudes(bearing, state)[ring]) for ring, waves in waves_by_ring(bearing)
         ],
+        "bearing_capacitance_nF": _between_rings(solved),
+        "capacitance_note": _note(state, solved),
         "shoulders": [],
         "contacts": _contacts(bearing, solved),
         "rollers": _of_rollers(bearing, solved, found, limit),
@@ -208,11 +221,27 @@ def _contacts(bearing: RollerBearing, solved: SolvedRollers) -> list[Contact]:
             load_N=float(loads[ring][j].sum()),
             contact_angle_deg=math.degrees(bearing.faces * leans[ring]),
             film_um=_film(found, ring, j, loads[ring][j]),
-            capacitance_pF=None,
+            capacitance_pF=finite(1e12 * float(solved.electric[0].contacts[j, k])) if solved.electric else None,
         )
         for j, azimuth in enumerate(state.azimuths)
-        for ring in get_args(Ring)
+        for k, ring in enumerate(get_args(Ring))
     ]
+
+
+def _between_rings(solved: SolvedRollers) -> float | None:
+    """Return the mean capacitance of the bearing [nF].
+
+    None where asperities short a roller at both rings.
+    """
+    each = [1e9 * one.bearing for one in solved.electric]
+    return finite(sum(each) / len(each)) if each else None
+
+
+def _note(state: RollerEquilibrium, solved: SolvedRollers) -> str:
+    if not solved.electric:
+        return ""
+    loads = np.column_stack([state.inner.sum(axis=1), state.outer.sum(axis=1)])
+    return capacitance_note(loads, solved.electric[0].contacts, "roller")
 
 
 def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArray) -> float | None:

@@ -441,7 +441,7 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
     ]
 
 
-def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
+def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64], element: str = "ball") -> str:
     """Explain missing capacitances.
 
     The note tells which contacts have none, shape (element, ring), and so why the bearing may have none.
@@ -461,7 +461,7 @@ def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]
     ]
     both = bool(shorted.all(axis=1).any())
     return f"asperities short {' and '.join(counts)} (film parameter below {SHORTED:g})" + (
-        ", some at both rings of a ball: the bearing has no capacitance" if both else ""
+        f", some at both rings of a {element}: the bearing has no capacitance" if both else ""
     )
 
 

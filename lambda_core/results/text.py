@@ -385,8 +385,9 @@ def _motion_lines(found: QuasiStatic, element: str, units: UnitSystem) -> list[s
 
 
 def _capacitance_line(found: QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return the capacitance that has a band, and what shorts."""
-    known = band_text(found.model_band, "capacitance", units)
+    """Return the capacitance with its band, and what shorts."""
+    plain = shown(found, "bearing_capacitance_nF", units) if found.bearing_capacitance_nF is not None else ""
+    known = band_text(found.model_band, "capacitance", units) or plain
     texts = [f"bearing {known}" if known else "", found.capacitance_note]
     return [line("capacitance", *texts)] if any(texts) else []
 

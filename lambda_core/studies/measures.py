@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
+from lambda_core.formulas.between_rings import between_rings
 from lambda_core.formulas.kinematics import cage_speed
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.convergence import window_of
@@ -56,11 +57,9 @@ def static_lambda(point: StaticPoint) -> float:
 def static_capacitance(point: StaticPoint) -> float:
     """Return the capacitance of the balls [nF].
 
-    The balls are parallel, the two contacts of a ball in series; it is infinite where asperities short a ball.
+    It is infinite where asperities short a ball.
     """
-    each = _contacts(point, "capacitance")
-    with np.errstate(divide="ignore"):
-        return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
+    return 1e9 * between_rings(_contacts(point, "capacitance"))
 
 
 # -- dynamic --

@@ -55,6 +55,18 @@ def test_published_laws_of_rolling_resistance_and_film_are_exchanged() -> None:
     assert "law of film_thickness" in {cause.name for cause in film.contributors}
 
 
+def test_the_capacitance_of_rollers_has_a_band_of_oil_film_and_clearance() -> None:
+    source = case("SKF NU 208 ECP", "3000 rpm", radial="5 kN")
+    found = api.quasistatic(source, band=True)
+    one = found.model_band.band("capacitance")
+    assert one.value == found.bearing_capacitance_nF
+    assert found.bearing_capacitance_nF_band == [one.low, one.high]
+    assert {"permittivity.eps_r", "lubricant.temperature"} <= {cause.name for cause in one.contributors}
+    for permittivity in (2.1, 2.3):
+        moved = {"models": {"permittivity": "constant"}, "parameters": {"permittivity": {"eps_r": permittivity}}}
+        assert one.low < api.quasistatic(source | moved, band=False).bearing_capacitance_nF < one.high
+
+
 def test_a_known_clearance_is_not_varied() -> None:
     known = case("SKF NU 208 ECP", "3000 rpm", radial="5 kN")
     known["bearing"] |= {"clearance": "20 um"}

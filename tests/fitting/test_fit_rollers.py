@@ -83,6 +83,19 @@ def test_what_does_not_count_is_told_and_what_is_wrong_refused() -> None:
     assert model.laws["ball_inner"]["elastic_hysteresis"].parameters.loss_factor == 0.04
 
 
+def test_the_permittivity_of_rollers_follows_from_a_measured_capacitance() -> None:
+    law = {"models": {"permittivity": "constant"}}
+    subject = subject_of(CASE | law)
+    known = {"parameters": {"permittivity": {"eps_r": 2.25}}}
+    points = []
+    for speed in (1000, 1500, 2000):
+        found = api.quasistatic(CASE | law | known, (f"operation.speed={speed} rpm",), band=False)
+        points.append(f"{speed},{found.bearing_capacitance_nF!r},1\n")
+    text = "speed [1/min],capacitance [nF],capacitance error [%]\n" + "".join(points)
+    fit = api.fit(CASE | law, parse_measurements(text, "f.csv", subject.words), ["eps_r=2..3"])
+    assert fit.parameters[0].value == pytest.approx(2.25, rel=1e-3)
+
+
 def test_rollers_have_no_measured_film() -> None:
     with pytest.raises(CaseError, match="minimum film"):
         api.fit(CASE, parse_measurements("speed [1/min],minimum film [um]\n9,1\n", "f.csv", subject_of(CASE).words), [])

@@ -14,6 +14,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.units import from_si, parse
+from lambda_core.formulas.between_rings import between_rings
 from lambda_core.formulas.life import life_hours, reference_rating_life
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
@@ -68,9 +69,7 @@ def _pressure(found: Equilibrium) -> float:
 
 
 def _capacitance(found: Equilibrium) -> float:
-    each = found.contacts[:, :, CONTACT_CHANNELS.index("capacitance")]
-    with np.errstate(divide="ignore"):
-        return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
+    return 1e9 * between_rings(found.contacts[:, :, CONTACT_CHANNELS.index("capacitance")])
 
 
 def _life(found: Equilibrium) -> float:

@@ -28,9 +28,10 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
 _TEMPERATURE, _RIB_ROUGHNESS = "lubricant.temperature", "bearing.rollers.rib_roughness"
+_ELECTRIC = ("parameters.permittivity.", "parameters.capacitance.")
 _RIBS = ("asperity_load",)  # roles whose published range is that of raceways: the answer has asperities at ribs alone
 _CLASS = "limits of the clearance class (ISO 5753-1)"
-_KEPT = "laws of ribs and of losses in the solids are not exchanged"
+_KEPT = "laws of ribs, losses in the solids and capacitance are not exchanged"
 
 
 class RollerEffects:
@@ -81,7 +82,7 @@ class RollerEffects:
         warmer = roller_model(case, (f"{_TEMPERATURE}={base.temperature + SEEN_STEPS[0]!r} K",))
         assert warmer is not None
         wider = replace(base.bearing, clearance=base.bearing.clearance + SEEN_STEPS[1])
-        moved = (replace(base, oil=warmer.oil), replace(base, bearing=wider))
+        moved = (replace(base, oil=warmer.oil, dielectric=warmer.dielectric), replace(base, bearing=wider))
         changes = np.array([self._logarithms(one) for one in moved])
         return np.asarray(changes / np.array(SEEN_STEPS)[:, np.newaxis])
 
@@ -141,7 +142,13 @@ def _changed(
             except CaseError as error:
                 left_out.append(f"{graded.short} is left out: {error}")
                 continue
-            yield graded, tuple(replace(base, oil=one.oil) for one in oils if one is not None)
+            yield (
+                graded,
+                tuple(replace(base, oil=one.oil, dielectric=one.dielectric) for one in oils if one is not None),
+            )
+        elif graded.path.startswith(_ELECTRIC):
+            moved = [roller_model(case, graded.changes(end)) for end in (graded.low, graded.high)]
+            yield graded, tuple(replace(base, dielectric=one.dielectric) for one in moved if one is not None)
     if written is not None:
         yield from _of_class(case, written, base)
 
@@ -184,17 +191,22 @@ def _exists(value: float) -> bool:
     return math.isfinite(value) and value != 0.0
 
 
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
 def _read(answer: QuasiStatic, name: str, model: RollerModel) -> float:
     """Return a result in the unit of its name.
 
     NaN where there is none.
     """
-    torque = math.nan if answer.friction_torque_Nmm is None else answer.friction_torque_Nmm
+    torque = _or_nan(answer.friction_torque_Nmm)
     life = None if answer.rating is None else answer.rating.reference_life_h
     return {
         "friction torque": torque,
         "power loss": 1e-3 * torque * abs(model.speeds[0] - model.speeds[1]),
         "minimum film": answer.film_um[0] if answer.film_um else math.nan,
         "maximum pressure": answer.max_pressure_GPa,
-        "rating life": math.nan if life is None else life,
+        "capacitance": _or_nan(answer.bearing_capacitance_nF),
+        "rating life": _or_nan(life),
     }.get(name, math.nan)

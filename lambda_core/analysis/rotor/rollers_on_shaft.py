@@ -9,6 +9,7 @@ import numpy as np
 
 from lambda_core.elements.roller.roller_friction import OilState
 from lambda_core.laws.context import Oil
+from lambda_core.model.laws.roller_dielectric import dielectric_of_model
 from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
 from lambda_core.results.rating import Rating
@@ -74,6 +75,7 @@ def taken_out(ring: RollerReaction) -> RollerModel:
         speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
         base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
         slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
+        dielectric=dielectric_of_model(model, ring.frame, ring.oil),
     )  # fmt: skip
 
 

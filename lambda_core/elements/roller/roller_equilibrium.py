@@ -165,7 +165,7 @@ def balance(
     _refuse(bearing, loads, held)
     springs = single_springs(bearing, slices)
     azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
-    carry, bending = _carry(azimuths, bearing), _bending(bearing)
+    carry, bending = carry_of(azimuths, bearing), _bending(bearing)
     drawn = np.zeros(_POSE) if support is None else support
     free = ~np.array(held)
     ring = np.zeros(_POSE) if displacement is None else np.asarray(displacement, dtype=np.float64).copy()
@@ -381,7 +381,7 @@ def _bent_energy(bending: FloatArray, moved: FloatArray) -> float:
     return 0.5 * float(bending @ moved**2)
 
 
-def _carry(azimuths: FloatArray, bearing: RollerBearing) -> FloatArray:
+def carry_of(azimuths: FloatArray, bearing: RollerBearing) -> FloatArray:
     """Return the motion of rings at every roller.
 
     That of the inner ring is in the plane of the roller; the fourth row is the outer raceway's way outwards where it

@@ -242,23 +242,14 @@ def _raceway(
     flat of the contact with the viscosity at half of the peak pressure (Barus' law, at most 1 MPa s), and
     :func:`flow_shear` around it.
     """
-    count = loads.shape[1]
-    width = bearing.effective_length / count
+    width = bearing.effective_length / loads.shape[1]
     line_load = loads / width
-    along = slice_positions(bearing.effective_length, count)
-    share = 1.0 + along * math.tan(bearing.angles.half) / (0.5 * bearing.diameter)
-    radius = bearing.radius(ring) * share
-    speed = motion.entrainment * share
     carried = line_load > 0.0
-    load = np.where(carried, line_load, 1.0)
-    inlet = (load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    inlet = load, radius, speed, *_ = _inlets(bearing, ring, line_load, motion, oil, par)
     force = np.where(carried, ROLLING_LAWS[par.rolling_law](*inlet), 0.0)
     half = np.where(carried, half_width(load, radius, par.e_eff), 0.0)
     peak = np.where(carried, peak_pressure(load, radius, par.e_eff), 0.0)
-    film = FILM_LAWS[par.film_law](*inlet)
-    film = film * line_film.inlet_heat_film(
-        speed, 0.0, peak, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
-    )
+    film = slice_films(bearing, ring, loads, motion, oil, par)
     couple = 2.0 / (3.0 * math.pi) * par.loss_factor * line_load * half
     thick = np.minimum(oil.viscosity * np.exp(np.minimum(oil.pressure_viscosity * 0.5 * peak, 60.0)), 1e6)
     shear = thick * 2.0 * half / film + flow_shear(radius, oil.viscosity, film)
@@ -266,12 +257,47 @@ def _raceway(
     return _Raceway(
         rolling=float(2.0 * np.sum(force * speed) * width),
         hysteresis=float(np.sum(couple) * width * motion.roller_speed(ring)),
-        film=np.where(carried, film, np.nan),
+        film=film,
         pressure=peak,
         traction=np.sum(force, axis=1) * width,
         ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
         largest=par.limit_ratio * np.sum(loads, axis=1),
     )
+
+
+def _inlets(
+    bearing: RollerBearing,
+    ring: Ring,
+    line_load: FloatArray,
+    motion: RollerMotion,
+    oil: OilState,
+    par: FrictionParameters,
+) -> tuple[FloatArray, FloatArray, FloatArray, float, float, float]:
+    """Return what laws of the inlet take of slices.
+
+    Slices without load stand with 1 N/m.
+    """
+    along = slice_positions(bearing.effective_length, line_load.shape[1])
+    share = 1.0 + along * math.tan(bearing.angles.half) / (0.5 * bearing.diameter)
+    load = np.where(line_load > 0.0, line_load, 1.0)
+    radius, speed = bearing.radius(ring) * share, motion.entrainment * share
+    return load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff
+
+
+def slice_films(
+    bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> FloatArray:
+    """Return the central film of every slice [m], (Z, n).
+
+    It is that of the law of the film with inlet heating, and NaN without load.
+    """
+    line_load = loads * (loads.shape[1] / bearing.effective_length)
+    inlet = load, radius, speed, *_ = _inlets(bearing, ring, line_load, motion, oil, par)
+    peak = peak_pressure(load, radius, par.e_eff)
+    heat = line_film.inlet_heat_film(
+        speed, 0.0, peak, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
+    )
+    return np.where(line_load > 0.0, FILM_LAWS[par.film_law](*inlet) * heat, np.nan)
 
 
 def _rib(
@@ -296,6 +322,20 @@ def _rib(
     return power, film, top[2], top[3]
 
 
+def rib_end(
+    rib: Rib, load: float, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> tuple[HertzContact, float]:
+    """Return ellipse and film [m] of a roller end."""
+    contact = hertz_contact(load, rib.contact.radius_x, rib.contact.radius_y, par.e_eff)
+    entrainment, turning = motion.rib(rib, bearing)
+    film = rib_film(load, rib.contact, entrainment, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    heat = line_film.inlet_heat_film(
+        entrainment, turning * rib.contact.height, contact.p_max, par.e_eff, oil.viscosity, oil.temperature_slope,
+        oil.conductivity,
+    )  # fmt: skip
+    return contact, film * float(heat)
+
+
 def _rib_contact(
     rib: Rib, load: float, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> tuple[float, float, float, HertzContact]:
@@ -308,15 +348,8 @@ def _rib_contact(
     asinh(eta v/(h tau_E)), at most `limit_ratio` p (Ree and Eyring; Barus' viscosity), asperities mu p; shares after
     Zhou and Hoeprich.
     """
-    contact = hertz_contact(load, rib.contact.radius_x, rib.contact.radius_y, par.e_eff)
-    entrainment, turning = motion.rib(rib, bearing)
-    slide = turning * rib.contact.height
-    film = rib_film(load, rib.contact, entrainment, oil.viscosity, oil.pressure_viscosity, par.e_eff)
-    film *= float(
-        line_film.inlet_heat_film(
-            entrainment, slide, contact.p_max, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
-        )
-    )
+    contact, film = rib_end(rib, load, bearing, motion, oil, par)
+    _, turning = motion.rib(rib, bearing)
     share = float(line_film.asperity_share(film / par.rib_roughness, par.asperity_scale, par.asperity_exponent))
     middles = 2.0 * (np.arange(_CELLS) + 0.5) / _CELLS - 1.0
     x, y = np.meshgrid(middles, middles)

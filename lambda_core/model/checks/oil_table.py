@@ -93,6 +93,10 @@ class OilLaw:
             raise CatalogueError(self.model.label, [Problem(where, sentence)])
         return float(ln_eta[0]), float(rho[0])
 
+    def density(self, pressures: FloatArray, temperature: float) -> FloatArray:
+        """Return rho [kg/m3] over pressures [Pa] at a temperature [K]."""
+        return np.array([self.state(pressure, temperature)[1] for pressure in pressures.tolist()])
+
     def log_viscosity(self, temperature: float) -> Callable[[float], float]:
         """Return ln(eta) over pressure [Pa] at a temperature [K]."""
         return lambda pressure: self.state(pressure, temperature)[0]

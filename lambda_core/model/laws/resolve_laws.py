@@ -73,7 +73,7 @@ class LawResolver:
         for element in self._elements():
             laws[element] = {}
             for role in (role for role in MOTION_ROLES.values() if element in role.elements):
-                law = self._law(element, role.name)
+                law = self.law(element, role.name)
                 if law is not None:
                     laws[element][role.name] = law
         self._check_unused()
@@ -112,7 +112,11 @@ class LawResolver:
                     where = f"forces.{element}.parameters.{role}"
                     self.ledger.problem(where, f"{element} has no such role; its roles: {', '.join(roles)}")
 
-    def _law(self, element: str, role: str) -> ChosenLaw | None:
+    def law(self, element: str, role: str) -> ChosenLaw | None:
+        """Return the law of a role with its parameters.
+
+        None follows a problem.
+        """
         name, where = self._choice(element, role)
         plain = name.removeprefix(f"{OWN}:")
         if plain == BALL_BALL and self.case.depth.cage:

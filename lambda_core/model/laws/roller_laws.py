@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from lambda_core.model.ledger import Ledger
 
 _DEFAULTS = DEFAULT_MODELS | DEFAULT_ROLLER_MODELS | DEFAULT_LINE_MODELS | DEFAULT_SHAPE_MODELS
-_OF_THE_OIL = ("rheology", "permittivity")  # roles in which an oil has its own default
+_OF_THE_OIL = ("rheology",)  # roles in which an oil has its own default
+_ELECTRIC = ("permittivity", "capacitance")  # roles of the capacitance, see roller_dielectric
 
 
 def written_parameters(law: Law, role: str, written: Mapping[str, Any], ledger: Ledger) -> BaseModel | None:
@@ -72,7 +73,7 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
 
     found: dict[str, Any] = {}
     chosen = {role: getattr(case.models, role) for role in type(case.models).model_fields}
-    given = {role: name.removeprefix(f"{OWN}:") for role, name in chosen.items() if name}
+    given = {role: name.removeprefix(f"{OWN}:") for role, name in chosen.items() if name and role not in _ELECTRIC}
     laws = {role: law_of_rollers(law, role, name, ledger) for role, name in given.items()}
     for role, name in given.items():
         names, _ = ROLLER_FRICTION.get(role, ((), {}))
@@ -82,6 +83,8 @@ def friction_of_case(case: Case, registry: ModelSource, ledger: Ledger) -> dict[
             known = f": the quasi-static answer has {names[0]}" if names else ""
             ledger.assume(f'models.{role} = "{name}" counts in motion only{known}')
     for role, written in case.parameters.items():
+        if role in _ELECTRIC:
+            continue
         if role not in MOTION_ROLES:
             ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
             continue
