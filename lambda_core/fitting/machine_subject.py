@@ -15,6 +15,7 @@ from lambda_core.analysis.band.loaded import loaded_in
 from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
+    MEASURED,
     STIFFNESSES,
     TEMPERATURES,
     Condition,
@@ -35,21 +36,19 @@ if TYPE_CHECKING:
 
 _SHARED = ("speed", "oil temperature", "oil level")  # conditions that are those of all bearings
 _MODES = 8
+_FRICTION = {name: MEASURED[name] for name in ("friction torque", "power loss")}
 _OF_MACHINE = {
-    "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
-    "power loss": Measured("power_loss_W", "power", "W"),
+    **_FRICTION,
     "largest deflection": Measured("max_deflection_um", "small_length", "um"),
     "first critical speed": Measured("first_critical_speed_rpm", "rotational_speed", "1/min"),
     **{f"natural frequency {n}": Measured(f"modes.{n}", "frequency", "Hz") for n in range(1, _MODES + 1)},
     **{f"bending frequency {n}": Measured(f"bending.{n}", "frequency", "Hz") for n in range(1, _MODES + 1)},
 }
 _OF_BEARING = {
-    "friction torque": Measured("friction_torque_Nmm", "moment", "N mm"),
-    "power loss": Measured("power_loss_W", "power", "W"),
+    **_FRICTION,
     "radial load": Measured("radial_load_N", "force", "N"),
     "axial load": Measured("axial_load_N", "force", "N", is_signed=True),
-    "minimum film": Measured("min_film_um", "small_length", "um"),
-    "capacitance": Measured("bearing_capacitance_nF", "capacitance", "nF"),
+    **{name: MEASURED[name] for name in ("minimum film", "capacitance")},
     **{
         f"displacement {axis}": Measured(f"displacement_um.{axis}", "small_length", "um", is_signed=True)
         for axis in "xyz"

@@ -11,6 +11,9 @@ from pydantic import Field
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.number_text import NONE, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.quantity import quantities
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
 
@@ -109,36 +112,59 @@ def side_by_side(runs: Sequence[Result]) -> SideBySide:
     if len(runs) < 2:
         raise UsageError("a comparison needs at least two results")
     summaries = [run.summary() for run in runs]
-    of_machines = any(len(summary.bearings) > 1 for summary in summaries)
-    numbers = [
-        Number(name=name, unit=unit, values=[getattr(summary, field) for summary in summaries])
-        for name, unit, field in _NUMBERS
-        if not of_machines or field in Summary.model_fields
-    ]
-    numbers += [
-        Number(name=name, unit=unit, values=[getattr(summary.rating, field, None) for summary in summaries])
-        for name, unit, field in (() if of_machines else _RATED)
-    ]
     files = [str(run.path) for run in runs]
-    return SideBySide(files=files, names=list(run_names(runs)), inputs=differing_inputs(runs), numbers=numbers)
+    return SideBySide(
+        files=files, names=list(run_names(runs)), inputs=differing_inputs(runs), numbers=list(_numbers(summaries))
+    )
 
 
-_NUMBERS = (
-    ("friction torque", "N mm", "friction_torque_Nmm"),
-    ("its confidence (95 %)", "N mm", "friction_torque_ci_Nmm"),
-    ("power loss", "W", "power_loss_W"),
-    ("smallest minimum film", "um", "min_film_um"),
-    ("largest pressure", "GPa", "max_pressure_GPa"),
-    ("cage over kinematic speed", "", "cage_speed_over_epicyclic"),
-    ("capacitance of the bearing", "nF", "bearing_capacitance_nF"),
+def _numbers(summaries: Sequence[Summary]) -> Iterator[Number]:
+    """Yield the key numbers.
+
+    Single bearings compare with each other whatever their names; with a machine, bearings of one name compare.
+    """
+    each = [summary.bearings for summary in summaries]
+    if all(len(bearings) == 1 for bearings in each):
+        yield from _of_bearings([next(iter(bearings.values())) for bearings in each])
+        return
+    yield from _declared(Summary, _OF_MACHINE, summaries)
+    for name in dict.fromkeys(name for bearings in each for name in bearings):
+        yield from _of_bearings([bearings.get(name) for bearings in each], f"{name}: ")
+
+
+def _of_bearings(bearings: Sequence[BearingSummary | None], before: str = "") -> Iterator[Number]:
+    """Yield the numbers of a bearing of each result."""
+    yield from _declared(BearingSummary, _OF_BEARING, bearings, before)
+    yield from _declared(Rating, _RATED, [None if one is None else one.rating for one in bearings], before)
+
+
+def _declared(
+    record: type[Record], fields: Sequence[str], values: Sequence[Record | None], before: str = ""
+) -> Iterator[Number]:
+    """Yield declared numbers under their own names."""
+    for one in (quantities(record)[field] for field in fields):
+        yield Number(
+            name=f"{before}{one.label}", unit=one.unit, values=[getattr(value, one.name, None) for value in values]
+        )
+
+
+_OF_MACHINE = ("friction_torque_Nmm", "friction_torque_ci_Nmm", "power_loss_W", "system_life_h")
+_OF_BEARING = (
+    "friction_torque_Nmm",
+    "friction_torque_ci_Nmm",
+    "power_loss_W",
+    "min_film_um",
+    "max_pressure_GPa",
+    "cage_speed_over_epicyclic",
+    "bearing_capacitance_nF",
 )
 _RATED = (
-    ("rating life ISO/TS 16281", "h", "reference_life_h"),
-    ("rating life ISO 281", "h", "basic_life_h"),
-    ("static safety C0/P0", "", "static_safety"),
-    ("viscosity ratio kappa", "", "viscosity_ratio"),
-    ("friction torque, SKF", "N mm", "skf_torque_Nmm"),
-    ("friction torque, Schaeffler", "N mm", "schaeffler_torque_Nmm"),
+    "reference_life_h",
+    "basic_life_h",
+    "static_safety",
+    "viscosity_ratio",
+    "skf_torque_Nmm",
+    "schaeffler_torque_Nmm",
 )
 
 

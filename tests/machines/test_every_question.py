@@ -246,7 +246,7 @@ ROWS: dict[str, list[Step]] = {
         (["show", "box.h5", "--json"], '"discharges_per_s"'),
         (["show", "box.h5", "--bearing", "right"], "cage speed"),
         (["show", "box.h5", "--assumptions"], "film"),
-        (["show", "box.h5", "box.h5"], "friction torque"),
+        (["show", "box.h5", "box.h5"], "left: smallest film under load"),
     ],
     "units": [
         (["show", "box.h5", "--units", "us"], "lbf in"),

@@ -29,7 +29,7 @@ def test_what_differs_is_what_the_cases_say(radial_run: Result, combined_run: Re
     assert numbers["friction torque"] == [run.summary().friction_torque_Nmm for run in (radial_run, combined_run)]
     rating = combined_run.rating
     assert rating is not None
-    assert numbers["rating life ISO/TS 16281"][1] == rating.reference_life_h
+    assert numbers["reference rating life L_10rh of ISO/TS 16281"][1] == rating.reference_life_h
 
 
 def test_one_result_twice_has_the_same_inputs(radial_run: Result) -> None:
