@@ -304,6 +304,8 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
         edges = shoulders(grooves, load, channels["contact_angle"], channels["semi_axis_a"])
     per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
     pressure = float(channels["max_pressure"].max())
+    if speed == 0.0:  # the laws are evaluated in slow motion, which rolls up a film that a bearing at rest has not
+        channels |= {name: np.full_like(load, np.nan) for name in ("film_central", "film_parameter")}
     films = span(channels["film_parameter"][carrying])
     contacts = contact_list({**channels, "ball_azimuth": _azimuths(found)})
     return {

@@ -36,3 +36,15 @@ def test_a_bearing_at_rest_has_no_torque_and_no_rolled_up_film() -> None:
     head = found.text()[: found.text().index("azimuth")]
     assert not [dash for dash in DASH if dash in head], head
     assert "none: nothing turns" in head
+
+
+def test_a_bearing_at_rest_has_no_film_in_its_contacts_and_no_band_of_one() -> None:
+    """Leave out films and losses of slow motion.
+
+    The contacts had 0.002 um, and the model band parts of "minimum film" and "power loss".
+    """
+    found = api.quasistatic("6208-axial-1300", ["operation.speed=0 rpm", "bodies.inner_ring.spin=locked"], band=True)
+    assert (found.film_um, found.film_parameter) == ([], [])
+    assert {contact.film_um for contact in found.contacts} == {None}
+    assert found.model_band is not None
+    assert {band.quantity for band in found.model_band.bands} == {"maximum pressure"}

@@ -58,7 +58,13 @@ def _torque(found: Equilibrium) -> float:
     return 1e3 * float(found.losses.sum()) / found.relative_speed
 
 
+def _loss(found: Equilibrium) -> float:
+    return float(found.losses.sum()) if found.relative_speed > 0.0 else 0.0
+
+
 def _film(found: Equilibrium) -> float:
+    if found.relative_speed <= 0.0:
+        raise UsageError("a bearing at rest has no film: remove the points at speed 0")
     load = found.contacts[:, :, _LOAD]
     film = found.contacts[:, :, CONTACT_CHANNELS.index("film_minimum")]
     return 1e6 * float(film[load > CARRYING * load.max()].min())
@@ -122,7 +128,7 @@ def _temperature(name: str) -> Callable[[Equilibrium], float]:
 
 READ: Mapping[str, Callable[[Equilibrium], float]] = {
     "friction torque": _torque,
-    "power loss": lambda found: float(found.losses.sum()),
+    "power loss": _loss,
     "minimum film": _film,
     "maximum pressure": _pressure,
     "capacitance": _capacitance,
