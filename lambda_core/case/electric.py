@@ -240,6 +240,22 @@ class Electric(Section):
         """Voltage source of the circuit."""
         return self.sine or self.step or self.series or self.inverter or Inverter()
 
+    @property
+    def twins(self) -> float:
+        """Number of further bearings like the one of the case.
+
+        They count with its capacitance where the case does not give the other bearings'.
+        """
+        return 1.0 if self.machine.other_bearings is None else 0.0
+
+    def of_bearing(self, name: str) -> Electric:
+        """Return the circuit of one bearing.
+
+        The case has one bearing, and this circuit is that of it.
+        """
+        del name
+        return self
+
     @model_validator(mode="after")
     def _one_source(self) -> Electric:
         given = [name for name in ("inverter", "sine", "step", "series") if getattr(self, name) is not None]
@@ -290,6 +306,11 @@ class MachineElectric(Electric):
         if own:
             raise ValueError(f"write {sorted(own)[0]} in [electric.bearings.NAME]: each bearing has its own")
         return self
+
+    @property
+    def twins(self) -> float:
+        """None: the case has all bearings."""
+        return 0.0
 
     def of_bearing(self, name: str) -> Electric:
         """Return the circuit of one bearing.

@@ -14,6 +14,7 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.model.long_form import long_form
 
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.simulation import CircuitSimulation
@@ -165,6 +166,22 @@ def test_a_longer_run_goes_on_with_its_circuit(run: api.Result, tmp_path: Path) 
         assert one.keys() == other.keys()
         for name, values in other.items():
             assert one[name].tobytes() == values.tobytes(), name
+
+
+def test_a_run_of_one_bearing_on_a_shaft_keeps_its_coating(tmp_path: Path) -> None:
+    coated = ["electric.grounding.insulation=1.5 nF", "solver.duration=12 ms"]
+    machine = api.run(long_form("6208-axial-1300", coated).tables, out=tmp_path / "one.h5")
+    circuit = api.electric(machine.path).circuit
+    assert circuit.bearings[0].coating == 1.5e-9
+    assert circuit.twins == 0.0
+
+
+def test_currents_follow_computed_temperatures() -> None:
+    warm, cold = (
+        api.electric("6208-axial-1300", ["electric.duration=1 ms", *changes]).outcome
+        for changes in (["operation.temperatures=computed"], [])
+    )
+    assert warm.bearing_capacitance_pF != pytest.approx(cold.bearing_capacitance_pF, rel=1e-3)
 
 
 def test_an_endless_duration_is_refused_in_few_digits() -> None:

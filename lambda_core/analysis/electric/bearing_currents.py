@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.model.checking import model_of
 from lambda_core.results.answer import answers
 from lambda_core.results.reader import Result
 
@@ -56,28 +54,14 @@ def electric(
     UsageError, CaseError, SolverError
         With a sentence about the source, the case, or about why there is no solution.
     """
-    from lambda_core.analysis.electric.case_or_run import (
-        circuit_of_run,
-        electric_of_machine,
-        electric_of_model,
-        is_result,
-    )
-    from lambda_core.analysis.electric.contacts import spins
+    from lambda_core.analysis.electric.case_or_run import circuit_of_run, electric_of_model, is_result
+    from lambda_core.analysis.thermal.temperatures import ready
 
     if is_result(source):
         found = circuit_of_run(Result(str(source)), overrides, announce, window=window)
-        return found if len(found.bearings) > 1 else found.first
-    if not is_machine(source):
-        return electric_of_model(model_of(source, overrides), announce, window=window)  # type: ignore[arg-type]
-    from lambda_core.analysis.rotor.api import machine_of
-    from lambda_core.solver.drivers.machine_statics import solve_machine
-
-    machine = machine_of(source, overrides)  # type: ignore[arg-type]
-    for mounted in machine.bearings:
-        spins(mounted.model)  # refuses rings at rest before anything is solved
-    state = solve_machine(machine, announce)
-    poses = [state.pose(machine, number) for number in range(len(machine.bearings))]
-    return electric_of_machine(machine, poses, announce, window=window)
+    else:
+        found = electric_of_model(ready(source, overrides, announce), announce, window=window)
+    return found if len(found.bearings) > 1 else found.first
 
 
 def film_from_capacitance(
@@ -146,6 +130,6 @@ def _alone(
     A bearing of a machine has the load that it carries there.
     """
     from lambda_core.analysis.rotor.bearing_alone import bearing_alone
-    from lambda_core.analysis.thermal.temperatures import resolved
+    from lambda_core.analysis.thermal.temperatures import ready
 
-    return bearing_alone(resolved(source, overrides), bearing, announce)
+    return bearing_alone(ready(source, overrides, announce), bearing, announce)

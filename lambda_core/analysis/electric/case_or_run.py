@@ -12,83 +12,82 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.electric.circuit_bearing import circuit_bearings, of_run, own_options
+from lambda_core.analysis.electric.circuit_bearing import CircuitBearing, circuit_bearings, of_run, usual_options
 from lambda_core.analysis.electric.contacts import (
-    PHASES,
     contacts_of_equilibria,
     contacts_of_run,
     default_duration,
     equilibria,
+    spins,
 )
-from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation, simulate, simulate_circuit
+from lambda_core.analysis.electric.simulation import CircuitSimulation, Simulation, simulate_circuit
 from lambda_core.analysis.electric.voltage_sources import reach
 from lambda_core.case.case_io import read_case, toml_tables
-from lambda_core.case.electric import Electric, MachineElectric
-from lambda_core.domain.arrays import FloatArray
+from lambda_core.case.electric import Electric
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
-from lambda_core.model.bearing_model import Solver
+from lambda_core.model.bearing_model import BearingModel, Solver
 from lambda_core.results.convergence import window as averaged
 from lambda_core.solver.drivers.bearing_reaction import held
+from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 
 if TYPE_CHECKING:
-    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
+    from lambda_core.solver.drivers.compiled_laws import Announce
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
 
 Span = tuple[float, float]
 _SECTION = "electric."
 
 
-def electric_of_model(model: BearingModel, announce: Announce = None, *, window: Span | None = None) -> Simulation:
-    """Compute a case on its quasi-static films.
+def electric_of_model(
+    model: BearingModel | MachineModel, announce: Announce = None, *, window: Span | None = None
+) -> CircuitSimulation:
+    """Compute all bearings of a case in one circuit.
 
-    The circuit is the section electric of the case.
+    The films are those of their quasi-static equilibria. The circuit is the section electric of the case.
 
     Raises
     ------
+    UsageError
+        When the rings of a bearing rest against each other.
     SolverError
         When there is no equilibrium, or the circuit cannot be solved.
     """
-    (bearing,) = circuit_bearings(model)
-    contacts = contacts_of_equilibria(equilibria(model, announce=announce), bearing.options.duration)
-    return simulate(contacts, bearing, announce=announce, window=window)
+    for one in model.bearing_models.values():
+        spins(one)  # refuses rings at rest before anything is solved
+    found = [equilibria(one, announce=announce) for one in _in_place(model, announce)]
+    return electric_of_equilibria(circuit_bearings(model), found, announce, window=window)
 
 
-def electric_of_machine(
-    machine: MachineModel,
-    poses: Sequence[FloatArray],
+def _in_place(model: BearingModel | MachineModel, announce: Announce) -> list[BearingModel]:
+    """Return every bearing where its balls pass.
+
+    A bearing alone finds its place under each position of the balls. The rings of a machine keep theirs in its
+    equilibrium.
+    """
+    if isinstance(model, BearingModel):
+        return [model]
+    return held_bearings(model, solve_machine(model, announce))
+
+
+def held_bearings(machine: MachineModel, state: MachineState) -> list[BearingModel]:
+    """Return a solved machine's bearings with held rings."""
+    return [held(one.model, state.pose(machine, i).tolist()) for i, one in enumerate(machine.bearings)]
+
+
+def electric_of_equilibria(
+    bearings: Sequence[CircuitBearing],
+    found: Sequence[list[Equilibrium]],
     announce: Announce = None,
     *,
     window: Span | None = None,
-    phases: int = PHASES,
-    kernels: Sequence[Kernels | None] = (),
 ) -> CircuitSimulation:
-    """Compute all bearings of a machine in one circuit.
+    """Compute bearings in one circuit.
 
-    The films are those of their quasi-static equilibria.
-
-    Parameters
-    ----------
-    poses : sequence of float64[:], shape (5,)
-        Of each inner ring against its outer ring, in the equilibrium of the machine. Balls pass while the rings keep
-        their place.
-    phases : int
-        Positions of the balls within one pitch.
-    kernels : sequence of Kernels
-        Compiled laws of each bearing, where they are known.
-
-    Raises
-    ------
-    SolverError
-        When a bearing has no equilibrium, or the circuit cannot be solved.
+    `found` are the equilibria of each at several positions of its balls.
     """
-    bearings = circuit_bearings(machine)
-    found = [
-        equilibria(held(mounted.model, pose.tolist()), phases, announce, own)
-        for mounted, pose, own in zip(machine.bearings, poses, kernels or [None] * len(poses), strict=True)
-    ]
     duration = bearings[0].options.duration or max(map(default_duration, found))
     contacts = [contacts_of_equilibria(each, duration) for each in found]
     return simulate_circuit(contacts, bearings, announce=announce, window=window)
@@ -126,14 +125,10 @@ def circuit_of_run(
         When the circuit cannot be solved.
     """
     options, results = options_of_run(result, overrides), result.bearings
-    if len(results) > 1:
-        options = options or MachineElectric()
-        bearings = [
-            replace(of_run(one, own_options(options, name)), name=name, case=result.case)
-            for name, one in results.items()
-        ]
-    else:
-        bearings = [of_run(one, options) for one in results.values()]
+    options = options or usual_options(on_shaft=result.is_machine)
+    bearings = [
+        replace(of_run(one, options.of_bearing(name)), name=name, case=result.case) for name, one in results.items()
+    ]
     settled = max(settled_from(one) for one in results.values())
     contacts = [contacts_of_run(one) for one in results.values()]
     first = bearings[0].options

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.analysis.electric.circuit_integrator import Circuit, Films, Surroundings
-from lambda_core.case.electric import Electric, MachineElectric
+from lambda_core.case.electric import Electric
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
 
@@ -90,19 +90,14 @@ def surroundings(options: Electric, geometry: Mapping[str, float]) -> Surroundin
 
 
 def circuit_of(options: Electric, bearings: Sequence[Surroundings]) -> Circuit:
-    """Return the circuit of a shaft's bearings.
-
-    For the case of one bearing, another one like it counts with this one's capacitance where the case does not give the
-    other bearings' (short form of a machine with two).
-    """
+    """Return the circuit of a shaft's bearings."""
     machine, grounding = options.machine, options.grounding
-    in_machine = isinstance(options, MachineElectric)
     return Circuit(
         winding=machine.winding_rotor,
         rotor=machine.rotor_frame + (machine.other_bearings or 0.0),
         bearings=tuple(bearings),
         brush=1.0 / grounding.brush if grounding.brush is not None else 0.0,
-        twins=1.0 if machine.other_bearings is None and not in_machine else 0.0,
+        twins=options.twins,
     )
 
 

@@ -61,10 +61,8 @@ class CircuitBearing:
     of_lines: bool = False
 
 
-def electric_model(options: Electric | None, name: str) -> ElectricModel:
+def electric_model(options: Electric, name: str) -> ElectricModel:
     """Return a circuit with its laws.
-
-    Without options it has the defaults.
 
     Raises
     ------
@@ -74,7 +72,7 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
     from lambda_core.discovery.api import registry
 
     ledger = Ledger()
-    found = resolve_electric(options or Electric(), registry(), ledger)
+    found = resolve_electric(options, registry(), ledger)
     ledger.check(name)
     return found
 
@@ -84,23 +82,22 @@ def circuit_bearings(model: BearingModel | MachineModel) -> list[CircuitBearing]
 
     A case without the section gets the defaults.
     """
-    absent = MachineElectric() if isinstance(model, MachineModel) else None
-    chosen = model.electric or electric_model(absent, model.name)
+    chosen = model.electric or electric_model(usual_options(on_shaft=any(model.bearing_models)), model.name)
     found = []
     for name, one in model.bearing_models.items():
-        own = dataclasses.replace(chosen, options=own_options(chosen.options, name))
+        own = dataclasses.replace(chosen, options=chosen.options.of_bearing(name))
         materials = {"ball": one.ball_material, "inner": one.inner_material, "outer": one.outer_material}
         bearing = _circuit_bearing(name or "bearing", model.name, own, one.geometry, materials, one.oil, one.roughness)
         found.append(dataclasses.replace(bearing, of_lines=one.rollers is not None))
     return found
 
 
-def own_options(options: Electric, name: str) -> Electric:
-    """Return the options of one bearing of a machine."""
-    return options.of_bearing(name) if isinstance(options, MachineElectric) else options
+def usual_options(*, on_shaft: bool) -> Electric:
+    """Return the circuit of a case without the section."""
+    return MachineElectric() if on_shaft else Electric()
 
 
-def of_run(result: Result, options: Electric | None) -> CircuitBearing:
+def of_run(result: Result, options: Electric) -> CircuitBearing:
     """Return the bearing of a run with a circuit.
 
     Raises

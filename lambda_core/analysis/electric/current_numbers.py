@@ -109,15 +109,13 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     SolverError
         When there is no equilibrium at another position, or the circuit cannot be solved.
     """
+    from lambda_core.analysis.electric.case_or_run import electric_of_equilibria
     from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
-    from lambda_core.analysis.electric.contacts import contacts_of_equilibria
-    from lambda_core.analysis.electric.simulation import simulate
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = found.context.model
-    (bearing,) = circuit_bearings(model)
     others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
-    return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))
+    return numbers_of(electric_of_equilibria(circuit_bearings(model), [[found, *others]]).first)
 
 
 def machine_numbers(
@@ -139,10 +137,13 @@ def machine_numbers(
     dict of str to CurrentNumbers
         Of each bearing by its name.
     """
-    from lambda_core.analysis.electric.case_or_run import electric_of_machine
+    from lambda_core.analysis.electric.case_or_run import electric_of_equilibria, held_bearings
+    from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
+    from lambda_core.analysis.electric.contacts import equilibria
 
-    poses = [state.pose(machine, number) for number in range(len(machine.bearings))]
-    found = electric_of_machine(machine, poses, phases=PHASES, kernels=kernels)
+    each = zip(held_bearings(machine, state), kernels, strict=True)
+    solved = [equilibria(one, PHASES, kernels=own) for one, own in each]
+    found = electric_of_equilibria(circuit_bearings(machine), solved)
     return {name: numbers_of(one) for name, one in found.bearings.items()}
 
 

@@ -14,7 +14,7 @@ from lambda_core.analysis.electric.circuit import bearing_capacitance, impedance
 from lambda_core.analysis.electric.current_limits import LIMITS, Limit
 from lambda_core.analysis.electric.events import discharges_of, sector_shares
 from lambda_core.analysis.electric.voltage_sources import period_of
-from lambda_core.case.electric import Electric, Inverter, MachineElectric, Sine, Step
+from lambda_core.case.electric import Electric, Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.number_text import number
 from lambda_core.model.settings.resolve_electric import assumed
@@ -236,7 +236,7 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
         if name not in written:
             value = 1e12 * getattr(options.machine, name)
             found.append(f"{words} is {value:g} pF: an order of magnitude; measure it on your machine")
-    if options.machine.other_bearings is None and not isinstance(options, MachineElectric):
+    if options.twins:
         found.append(
             "the machine has a second bearing with the same capacitance at every moment, whose films never break down: "
             "every discharge goes through this one"

@@ -65,11 +65,10 @@ def with_circuits(models: Mapping[str, BearingModel], circuit: ElectricModel | N
 
     Each bearing adds its own options to the machine's circuit.
     """
-    if circuit is None or not isinstance(circuit.options, MachineElectric):
+    if circuit is None:
         return dict(models)
-    options = circuit.options
     return {
-        name: replace(model, electric=replace(circuit, options=options.of_bearing(name)))
+        name: replace(model, electric=replace(circuit, options=circuit.options.of_bearing(name)))
         for name, model in models.items()
     }
 
