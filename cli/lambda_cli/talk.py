@@ -129,7 +129,7 @@ class Lines(Silence):
         now = time.monotonic()
         if now - self._last >= _LINE_AFTER:
             self._last = now
-            self.say(f"running  {progress.percent:5.1f} %  {_state(progress)}  {_clock(progress.left_s)} left")
+            self.say(f"running  {_share(progress, 1)}{_state(progress)}  {_left(progress)}")
 
 
 class Bar(Silence):
@@ -143,7 +143,7 @@ class Bar(Silence):
         self._bar = Progress(
             TextColumn("{task.description}", markup=False),
             BarColumn(bar_width=30),
-            TextColumn("{task.percentage:3.0f} %  {task.fields[state]}", markup=False),
+            TextColumn("{task.fields[state]}", markup=False),
             console=self._console,
             transient=True,
         )
@@ -162,8 +162,9 @@ class Bar(Silence):
 
     def update(self, progress: AnyProgress) -> None:
         """Move the bar."""
-        state = f"{_state(progress)}  {_clock(progress.left_s)} left"
-        self._bar.update(self._task, description="running", total=100.0, completed=progress.percent, state=state)
+        state, done = f"{_share(progress)}{_state(progress)}  {_left(progress)}", progress.percent
+        total = None if done is None else 100.0
+        self._bar.update(self._task, description="running", total=total, completed=done or 0.0, state=state)
 
     def __enter__(self) -> Talk:
         self._bar.start()
@@ -191,6 +192,16 @@ def _state(progress: AnyProgress) -> str:
     band = progress.friction_torque_ci_Nmm
     more = f" ± {band:.1f}" if band is not None else ""
     return f"{turns}  M {progress.friction_torque_Nmm:.1f}{more} N mm"
+
+
+def _share(progress: AnyProgress, digits: int = 0) -> str:
+    """Write the share that is done, where it is known."""
+    return "" if progress.percent is None else f"{progress.percent:{4 + digits}.{digits}f} %  "
+
+
+def _left(progress: AnyProgress) -> str:
+    """Write the time left, or that nobody knows it."""
+    return "more points than usual" if progress.percent is None else f"{_clock(progress.left_s)} left"
 
 
 def _clock(seconds: float | None) -> str:

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 _MOST = 200_000  # lines
 _PLAIN = ("ratio", "-")  # quantity and unit of an axis without one
 _WARM_UP = '"time [min],outer ring temperature [degC]"'
-_BAND = "± one standard deviation"
+NORMAL = 1.959963984540054  # standard deviations of a normal distribution within which 95 % lie
+BARS = "bars: 95 % of the error of measurement"
 
 
 def pictures_of_case(result: Result, measured: str | Path, bearing: str | None = None) -> list[ViewData]:
@@ -152,9 +153,9 @@ def _drawn(panel: Panel, data: Measurements) -> Panel:
             continue
         known = np.isfinite(values)
         error = data.errors.get(name, data.shares[name] * np.abs(values) if name in data.shares else None)
-        low, high = (None, None) if error is None else ((values - error)[known], (values + error)[known])
+        low, high = (None, None) if error is None else ((values + sign * NORMAL * error)[known] for sign in (-1.0, 1.0))
         words = f"{line}, measured" if line else f"measured, {data.name}"
         role = next((one.role for one in panel.series if one.name == line and one.role), "measured")
-        band = _BAND if error is not None else ""
+        band = BARS if error is not None else ""
         more.append(Series(words, places[known], values[known], "points", role, low, high, band))
     return replace(panel, series=(*panel.series, *more)) if more else panel

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 FEW = 48  # rows for which no process is started: starting takes as long as ten of them
 _CHUNK = 16  # rows that a process solves between two reports
 _USUAL_PASSES = 8.0  # over all rows by a parameter: slopes and values of two or three rounds
-_LONGER = 1.2  # of the passes done, where a search takes more than the usual ones
 _TELL_AFTER = 0.2  # [s]
 
 
@@ -37,9 +36,9 @@ class FitProgress(BaseModel):
 
     solved: int  # operating points, of every set of values that was tried
     error_pct: float | None  # of the best values so far
-    percent: float  # of the points that a fit takes as a rule
+    percent: float | None  # of the points that a fit takes as a rule; None where it takes more
     wall_s: float
-    left_s: float | None  # by that rule
+    left_s: float | None  # by that rule; None where it does not hold
 
 
 class Asked(NamedTuple):
@@ -143,8 +142,8 @@ class Rows:
 class Watch:
     """Estimates the time left of a fit.
 
-    A fit ends when its values settle, and nobody knows when: the estimate is what fits take as a rule, and grows where
-    one takes longer.
+    A fit ends when its values settle, and nobody knows when: the estimate is what fits take as a rule. A fit that takes
+    longer has none.
 
     Parameters
     ----------
@@ -163,7 +162,7 @@ class Watch:
     def heard(self, count: int) -> None:
         """Take points that were solved."""
         self._solved += count
-        wall, every = time.monotonic() - self._begin, max(self._usual, _LONGER * self._solved)
+        wall, is_usual = time.monotonic() - self._begin, self._solved < self._usual
         if self._solved <= self._rows:
             self._first = wall
         if wall - self._told < _TELL_AFTER:
@@ -171,12 +170,12 @@ class Watch:
         self._told = wall
         # the first pass over all rows takes longer than those that begin from it
         later = self._solved - self._rows
-        left = (wall - self._first) / later * (every - self._solved) if later > 0 else None
+        left = (wall - self._first) / later * (self._usual - self._solved) if later > 0 and is_usual else None
         self._tell(
             FitProgress(
                 solved=self._solved,
                 error_pct=self.error_pct,
-                percent=100.0 * self._solved / every,
+                percent=100.0 * self._solved / self._usual if is_usual else None,
                 wall_s=wall,
                 left_s=left,
             )

@@ -21,6 +21,7 @@ from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.roles import ROLES
 from lambda_core.domain.units import parse, show
 from lambda_core.fitting.measurements import Measurements, read_measurements
+from lambda_core.fitting.overlay import BARS, NORMAL
 from lambda_core.formulas.hertz import hertz_contact, load_at_pressure
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.results.record import INTERFACE, Record
@@ -92,9 +93,9 @@ class TractionCurve(Record):
         if (found := self.measured) is not None:
             values = np.array(found.coefficient)
             spread = np.array(found.error) if found.error else np.zeros_like(values)
-            low, top = (values - 2.0 * spread, values + 2.0 * spread) if found.error else (None, None)
+            low, top = (values - NORMAL * spread, values + NORMAL * spread) if found.error else (None, None)
             at = 100.0 * np.array(found.slide_roll_ratio)
-            words = "two standard deviations" if found.error else ""
+            words = BARS if found.error else ""
             lines.append(Series(found.file, at, values, "points", "measured", low=low, high=top, band=words))
             high = max(1.1 * float(at.max()), 1.0)
         panel = Panel("", Axis("slide-roll ratio", "%", low=0.0, high=high), Axis(_TRACTION, low=0.0), tuple(lines))

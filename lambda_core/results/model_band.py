@@ -84,9 +84,9 @@ class Band(Record):
 
     def why(self) -> str:
         """Return the causes, and why the value is an end."""
-        return "; ".join(text for text in (self.mostly(), self._at_end()) if text)
+        return "; ".join(text for text in (self.mostly(), self.at_end()) if text)
 
-    def _at_end(self) -> str:
+    def at_end(self) -> str:
         """Say why the value is an end of its band.
 
         Empty where it is not, or where no contributor tells why.
@@ -158,7 +158,7 @@ class ModelBand(Record):
         """
         found = []
         for band in self.bands:
-            why = f"   mostly {band.mostly()}" if band.contributors else ""
+            why = f"   mostly {band.why()}" if band.contributors else ""
             if band.quantity in TEMPERATURES:
                 found.append(f"{band.quantity} {band.low - band.value:+.1f} .. {band.high - band.value:+.1f} K{why}")
                 continue

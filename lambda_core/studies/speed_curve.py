@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
+    from lambda_core.results.model_band import MachineBand
     from lambda_core.solver.drivers.compiled_laws import Kernels
 
 _RPM = np.pi / 30.0
@@ -62,6 +63,7 @@ class SpeedCurve(Answer):
     torque_Nmm_band: list[list[float]] = Field(
         description="ends of the 90 % model band at each speed; empty without one", default=[]
     )
+    band_notes: list[str] = Field(description="where and why the torque lies at the end of its band", default=[])
     skf_Nmm: list[float | None] = Field(description="SKF's catalogue model with drag; null where it does not apply")
     film_parameter: list[float] = Field(description="smallest Lambda under load")
     note: str
@@ -80,7 +82,9 @@ class SpeedCurve(Answer):
         ]  # fmt: skip
         widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
         lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (head, *rows)]
-        return "\n".join([self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, self.note])
+        return "\n".join(
+            [self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, *self.band_notes, self.note]
+        )
 
 
 @answers
@@ -138,13 +142,14 @@ def stribeck(
     kernels = Kernels(model)
     found = _points(model_at, given, fastest, kernels)
     torques = [sum(parts.values()) for parts, _, _ in found]
-    names = dict.fromkeys(_PARTS.values())
+    names, (bands, notes) = dict.fromkeys(_PARTS.values()), _bands(model_at, given, torques) if band else ([], [])
     return SpeedCurve(
         case=model.name,
         title=model.title,
         speeds_rpm=given,
         torque_Nmm=torques,
-        torque_Nmm_band=_bands(model_at, given, torques) if band else [],
+        torque_Nmm_band=bands,
+        band_notes=notes,
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
@@ -173,16 +178,30 @@ def _models(
 
 def _bands(
     model_at: Callable[[float], BearingModel], speeds: Sequence[float], torques: Sequence[float]
-) -> list[list[float]]:
-    """Return both ends of the torque's model band.
+) -> tuple[list[list[float]], list[str]]:
+    """Return both ends of the torque's model band, and notes.
 
-    Each speed has a pair; the result is empty where the bearing has no band.
+    Each speed has a pair of ends, none where the bearing has no band; the notes tell where the torque is near an end.
     """
     from lambda_core.analysis.band.neighbours import places_of
     from lambda_core.analysis.band.over_points import bands_over
 
-    shares = bands_over(lambda row: model_at(speeds[row]), places_of([speeds])).get("friction_torque_Nmm")
-    return [] if shares is None else (shares * np.array(torques)[:, None]).tolist()
+    near: dict[str, list[float]] = {}
+
+    def hear(row: int, found: MachineBand) -> None:
+        for band in (one for own in found.bearings.values() for one in own.bands if one.quantity == "friction torque"):
+            near.setdefault(band.at_end(), []).append(speeds[row])
+
+    shares = bands_over(lambda row: model_at(speeds[row]), places_of([speeds]), hear=hear).get("friction_torque_Nmm")
+    if shares is None:
+        return [], []
+    notes = [f"at {_span(at)} 1/min {sentence}" for sentence, at in near.items() if sentence]
+    return (shares * np.array(torques)[:, None]).tolist(), notes
+
+
+def _span(speeds: Sequence[float]) -> str:
+    low, high = (f"{speed:.4g}" for speed in (min(speeds), max(speeds)))
+    return low if low == high else f"{low} to {high}"
 
 
 def _points(

@@ -13,6 +13,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.results.model_band import Band, Contributor, MachineBand, ModelBand
 
 CASE = "6319-cp10-500"
 CHANGES = (
@@ -43,6 +44,17 @@ def test_speeds_reach_from_the_slowest_to_the_usual_limit() -> None:
     found = api.stribeck(CASE, CHANGES, points=3)
     assert found.speeds_rpm[0] == pytest.approx(1.0)
     assert found.speeds_rpm[-1] * 125.0 == pytest.approx(5e5)  # d_m of a 6316 in mm
+
+
+def test_the_curve_tells_where_the_torque_lies_at_the_end_of_its_band(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Print the sentence of the band with its speeds."""
+    cause = Contributor(name="law of fluid_drag", share=1.0, low=5.0, high=100.0, source="")
+    band = Band(quantity="friction torque", unit="N mm", value=100.0, low=10.0, high=100.0, contributors=[cause])
+    found = MachineBand(case="c", bearings={"": ModelBand(case="c", coverage=0.9, bands=[band], left_out=[])})
+    monkeypatch.setattr("lambda_core.analysis.band.over_points.bands_of", lambda *_: found)
+    curve = api.stribeck(CASE, CHANGES, speeds_rpm=[10.0, 1000.0], band=True)
+    assert f"at 10 to 1000 1/min {band.at_end()}" in curve.text()
+    assert band.at_end().startswith("the value is near the upper end")
 
 
 def test_the_picture_has_a_logarithmic_speed() -> None:

@@ -10,6 +10,7 @@ import re
 import tomllib
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import h5py
@@ -509,6 +510,9 @@ def test_a_value_at_the_end_of_its_band_has_its_reason(cause: str, side: str, re
     said = f"the value is near the {side} end of its band, {reason}"
     assert source_lines(found)[1].endswith(said)
     assert band.text().endswith(said)
+    assert found.shares()[0].endswith(said)
+    (table,) = model_bands(SimpleNamespace(model_band=found, friction_torque_Nmm_band=[low, high]))
+    assert table.rows[0][-1].endswith(said)
     middle = band.model_copy(update={"low": 1000.0, "high": 7000.0})
     assert "the value" not in middle.text()
 

@@ -53,10 +53,15 @@ def test_points_stand_in_the_unit_of_the_axis_with_their_errors(tmp_path: Path) 
     np.testing.assert_allclose(outer.x, [10.0, 30.0])
     np.testing.assert_allclose(outer.y, [30.0, 40.0])
     assert outer.low is not None
-    np.testing.assert_allclose(outer.low, [28.0, 38.0])
+    half = 1.959964 * 2.0  # 95 % of a standard deviation of 2 K
+    np.testing.assert_allclose(outer.low, [30.0 - half, 40.0 - half])
     np.testing.assert_allclose(loss.series[-1].y, [9.0])
     assert loss.series[-1].high is not None
-    np.testing.assert_allclose(loss.series[-1].high, [9.9])
+    np.testing.assert_allclose(loss.series[-1].high, [9.0 + 1.959964 * 0.9])
+    from lambda_plugins.views.drawing import draw
+
+    texts = [text.get_text() for text in draw(found).axes[0].get_legend().get_texts()]
+    assert texts.count("bars: 95 % of the error of measurement") == 1
     assert isinstance(speed, Panel)
     assert len(speed.series) == 1
     assert "measured: rig.csv" in found.notes

@@ -25,7 +25,12 @@ MOST = 8  # points computed in full: half a second each
 Shares = dict[str, FloatArray]
 
 
-def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: FloatArray, most: int = MOST) -> Shares:
+def bands_over(
+    model_at: Callable[[int], BearingModel | MachineModel],
+    places: FloatArray,
+    most: int = MOST,
+    hear: Callable[[int, MachineBand], None] | None = None,
+) -> Shares:
     """Return the model band at each point.
 
     Parameters
@@ -36,6 +41,8 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
         The points, see :func:`.neighbours.places_of`.
     most : int
         Points that are computed in full; their bands are exact.
+    hear : callable, optional
+        Takes the number of each of these points and its bands.
 
     Returns
     -------
@@ -48,10 +55,13 @@ def bands_over(model_at: Callable[[int], BearingModel | MachineModel], places: F
     for row in spread_out(places, most) if len(places) else ():
         try:
             model = model_at(row)
-            logarithms.append(_logarithms(bands_of(model, loaded_bearings(model))))
+            bands = bands_of(model, loaded_bearings(model))
         except LambdaError:  # this point has no solution, or only its result is known
             continue
+        logarithms.append(_logarithms(bands))
         known.append(row)
+        if hear is not None:
+            hear(row, bands)
     if not known:
         return {}
     found = {}

@@ -93,10 +93,13 @@ def _curve(axes: Any, series: Series, look: Look, *, polar: bool = False, framed
         axes.plot(x, y, color=look.colour, linestyle=dash, linewidth=width, label=name, zorder=3)
     if low is None or high is None:
         return
+    is_named = bool(series.band) and series.band not in axes.get_legend_handles_labels()[1]
+    words = series.band if is_named and not series.unlisted else None
     if series.kind == "points":
-        axes.errorbar(x, y, [y - low, high - y], fmt="none", ecolor=look.colour, elinewidth=1.2, capsize=3, zorder=3)
+        style = {"ecolor": look.colour, "elinewidth": 1.2, "capsize": 3, "zorder": 3, "label": words}
+        axes.errorbar(x, y, [y - low, high - y], fmt="none", **style)
     else:
-        axes.fill_between(x, low, high, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=2)
+        axes.fill_between(x, low, high, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=2, label=words)
 
 
 def _is_calm(values: Any) -> bool:
