@@ -13,18 +13,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from pydantic import Field, ValidationError, model_validator
 
-from lambda_core.analysis.rating.engineering import rating_of
-from lambda_core.analysis.thermal.temperatures import ready_model
+from lambda_core.analysis.thermal.temperatures import ready
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, read_case, syntax_problem
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
-from lambda_core.discovery.api import registry
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
@@ -32,14 +30,14 @@ from lambda_core.domain.files import read_text
 from lambda_core.domain.number_text import hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import Time
-from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
-from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.studies.job import static_point
 from lambda_core.studies.load_spectrum import read_spectrum
 
 if TYPE_CHECKING:
+    from lambda_core.results.quasistatic import BearingStatics
     from lambda_core.studies.machine_duty import MachineDutyCycle
 
 Solved = TypeVar("Solved")
@@ -158,29 +156,15 @@ class _Step:
     changes: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class SolvedBearing:
-    """Answer of one bearing in one phase.
-
-    Lives, friction torque [N mm] and power loss [W], None where they are not known, and warnings.
-    """
-
-    rating: Rating
-    torque: float | None
-    loss: float | None
-    warnings: list[str]
-
-
-@dataclass(frozen=True)
-class SolvedPhase:
+class SolvedPhase(NamedTuple):
     """Answer of one phase.
 
     The speed of the rings against each other [1/min], every bearing by its name, and warnings of a machine.
     """
 
     speed_rpm: float
-    bearings: Mapping[str, SolvedBearing]
-    warnings: Sequence[str] = ()
+    bearings: Mapping[str, BearingStatics]
+    warnings: Sequence[str]
 
 
 @one_blas_thread()
@@ -210,8 +194,7 @@ def duty(
         With a sentence about the cycle, or about a phase that is named.
     """
     cycle, case, steps = _read(source)
-    solve = partial(_solved, case, announce) if isinstance(case, Case) else _phases_of_machine(case, announce)
-    found = [_at(step, case.name, partial(solve, step.changes)) for step in steps]
+    found = [_at(step, case.name, partial(_solved, case, announce, step.changes)) for step in steps]
     if isinstance(case, Case):
         return _cycles(cycle.name, {ALONE: case.name}, steps, found)[ALONE]
     from lambda_core.studies.machine_duty import joined_bearings
@@ -219,14 +202,6 @@ def duty(
     names = {name: f"{case.name}, {name}" for name in found[0].bearings}
     warned = list(dict.fromkeys(text for phase in found for text in phase.warnings))
     return joined_bearings(cycle.name, case.name, _cycles(cycle.name, names, steps, found), warned, _ADDED)
-
-
-def _phases_of_machine(
-    case: MachineCase, announce: Callable[[str], None] | None
-) -> Callable[[Sequence[str]], SolvedPhase]:
-    from lambda_core.studies.machine_duty import MachinePhases
-
-    return MachinePhases(case, announce).solved
 
 
 def _cycles(
@@ -246,17 +221,19 @@ def _cycles(
 def _phase(step: _Step, share: float, found: SolvedPhase, name: str) -> PhaseResult:
     """Return one bearing in one phase."""
     own, turns = found.bearings[name], found.speed_rpm > 0.0
+    rating = own.rating
+    assert rating is not None  # each of a phase has one
     return PhaseResult(
         name=step.name,
         share=share,
         speed_rpm=found.speed_rpm,
-        equivalent_load_N=own.rating.equivalent_load_N,
-        basic_life_h=own.rating.basic_life_h if turns else None,
-        reference_life_h=own.rating.reference_life_h if turns else None,
+        equivalent_load_N=rating.equivalent_load_N,
+        basic_life_h=rating.basic_life_h if turns else None,
+        reference_life_h=rating.reference_life_h if turns else None,
         damage=None,
-        friction_torque_Nmm=own.torque if turns else None,
-        power_loss_W=own.loss if turns else 0.0,
-        energy_loss_kJ=0.0 if not turns else None if own.loss is None else 1e-3 * own.loss * step.time,
+        friction_torque_Nmm=own.friction_torque_Nmm if turns else None,
+        power_loss_W=own.power_loss_W if turns else 0.0,
+        energy_loss_kJ=0.0 if not turns else None if own.power_loss_W is None else 1e-3 * own.power_loss_W * step.time,
         warnings=own.warnings,
     )
 
@@ -383,16 +360,10 @@ def _tables(path: Path) -> dict[str, Any]:
         raise CaseError(path.name, [Problem("", "is nested too deeply")]) from None
 
 
-def _solved(case: Case, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
-    """Solve a phase of one bearing."""
-    from lambda_core.solver.drivers.equilibrium import solve
-
-    model = ready_model(apply_overrides(case, changes), announce=announce, is_static=True)
-    found = solve(model, announce=announce)
-    loss, speed = float(sum(found.losses)), found.relative_speed
-    torque = 1e3 * loss / speed if speed > 0.0 else None
-    own = SolvedBearing(rating_of(found, registry().methods), torque, loss, operating_warnings(model))
-    return SolvedPhase(speed * 30.0 / math.pi, {ALONE: own})
+def _solved(case: Case | MachineCase, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
+    """Solve a phase."""
+    point = static_point(ready(apply_overrides(case, changes), announce=announce, is_static=True), announce)
+    return SolvedPhase(point.speed_rpm, point.rated, point.warnings)
 
 
 def _written(value: bool | int | float | str) -> str:

@@ -13,14 +13,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.plugin_errors import failures_so_far
 
 if TYPE_CHECKING:
-    from lambda_core.case.case import Case
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
@@ -118,42 +117,27 @@ def lost(task: Task, reason: str) -> Outcome:
     return Outcome(task.number, "failed", reason, "", {}, "", 0.0)
 
 
-def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | MachineModel:
+def point_model(case_toml: str, changes: tuple[str, ...], *, is_static: bool = False) -> BearingModel | MachineModel:
     """Return the model of one point.
 
-    The model is one of a bearing or a machine. All problems make one CaseError.
+    The model is one of a bearing or a machine. All problems make one CaseError. With `is_static` it is for an
+    equilibrium, which needs no end in time.
     """
-    tables = _machine_tables(case_toml)
-    if tables is None:
-        return resolve_point(case_toml, changes)
-    from lambda_core.model.resolve_machine import resolve_machine
+    from lambda_core.model.api import check
 
-    return resolve_machine(tables, changes, catalogue=_catalogue())
+    return check(_tables(case_toml), changes, catalogue=_catalogue(), is_static=is_static)
 
 
 def resolve_point(case_toml: str, changes: tuple[str, ...], *, is_static: bool = False) -> BearingModel:
-    """Return the model of a one-bearing point.
-
-    It is a point of a case of one bearing; CaseError with all its problems. With `is_static` it is for an equilibrium,
-    which needs no end in time.
-    """
-    from lambda_core.case.case_io import apply_overrides
-    from lambda_core.discovery.api import registry
-    from lambda_core.model.resolve import resolve
-
-    return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue(), is_static=is_static)
+    """Return a point of a one-bearing case as :func:`point_model`."""
+    return cast("BearingModel", point_model(case_toml, changes, is_static=is_static))
 
 
 @lru_cache(maxsize=4)
-def _machine_tables(case_toml: str) -> dict[str, Any] | None:
-    """Return the tables of a machine's case.
+def _tables(case_toml: str) -> dict[str, Any]:
+    from lambda_core.case.case_io import toml_tables
 
-    The case of one bearing has none, so the result is None.
-    """
-    from lambda_core.case.case_io import is_machine_case, toml_tables
-
-    tables = toml_tables(case_toml, "the case of the study")
-    return tables if is_machine_case(tables) else None
+    return toml_tables(case_toml, "the case of the study")
 
 
 def point_hash(model: BearingModel | MachineModel) -> str:
@@ -168,13 +152,6 @@ def point_hash(model: BearingModel | MachineModel) -> str:
         return case_hash(model)
     parts = [model.case_toml, *(case_hash(bearing.model) for bearing in model.bearings)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
-
-
-@lru_cache(maxsize=4)
-def _base(case_toml: str) -> Case:
-    from lambda_core.case.case_io import parse_case
-
-    return parse_case(case_toml, "the case of the study")
 
 
 @lru_cache(maxsize=1)

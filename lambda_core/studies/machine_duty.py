@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from pydantic import Field
 
-from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
-from lambda_core.analysis.thermal.temperatures import ready_machine_of
-from lambda_core.case.machine import MachineCase
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.life import system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
-from lambda_core.studies.duty_cycle import YEAR, DutyCycle, SolvedBearing, SolvedPhase, duty_table
+from lambda_core.studies.duty_cycle import YEAR, DutyCycle, duty_table
 
 SYSTEM = (
     "life of all bearings: (sum L_i^-e)^(-1/e), e = 10/9 for balls, from L_10rh of each over the cycle "
@@ -73,29 +69,6 @@ class MachineDutyCycle(Record):
         """Return cycle and system life."""
         life = "-" if self.system_life_h is None else hours(self.system_life_h)
         return f"<MachineDutyCycle {self.name} of {self.case}, system life {life}>"
-
-
-class MachinePhases:
-    """Phases of a machine, solved in order.
-
-    Laws are compiled once.
-    """
-
-    def __init__(self, case: MachineCase, announce: Callable[[str], None] | None) -> None:
-        self._case, self._announce, self._kernels = case, announce, SharedKernels(announce)
-
-    def solved(self, changes: Sequence[str]) -> SolvedPhase:
-        """Solve one phase.
-
-        SolverError where there is no equilibrium.
-        """
-        model = ready_machine_of(self._case, changes, self._announce)
-        found = equilibrium_of(model, solve_machine(model, self._announce, self._kernels))
-        own = {
-            one.name: SolvedBearing(one.rating, one.friction_torque_Nmm, one.power_loss_W, one.warnings)
-            for one in found.bearings
-        }
-        return SolvedPhase(abs(found.speed_rpm), own, found.warnings)
 
 
 def joined_bearings(

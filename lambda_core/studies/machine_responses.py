@@ -52,6 +52,28 @@ class MachinePoint:
         """
         return [ring.equilibrium() for ring in self.state.rings]
 
+    @property
+    def speed_rpm(self) -> float:
+        """Speed of the shaft without its sign [1/min]."""
+        return abs(self._plain.speed_rpm)
+
+    @property
+    def rated(self) -> Mapping[str, BearingEquilibrium]:
+        """Bearings with their ratings, by name."""
+        return self._plain.each
+
+    @property
+    def warnings(self) -> list[str]:
+        """Geometric conflicts of parts on the shaft."""
+        return self._plain.warnings
+
+    @cached_property
+    def _plain(self) -> MachineEquilibrium:
+        """The equilibrium without preload, which costs solutions of its own."""
+        from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
+
+        return equilibrium_of(self.model, self.state)
+
     @cached_property
     def summary(self) -> MachineEquilibrium:
         """The equilibrium in the words of the machine interface."""

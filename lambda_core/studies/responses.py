@@ -26,7 +26,7 @@ from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities
-from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.quasistatic import BearingStatics, QuasiStatic
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
@@ -78,6 +78,23 @@ class StaticPoint:
     def each(self) -> list[Equilibrium]:
         """Equilibria of all bearings: of this one."""
         return [self.equilibrium]
+
+    @property
+    def speed_rpm(self) -> float:
+        """Speed of the rings against each other [1/min]."""
+        return self.equilibrium.relative_speed * 30.0 / math.pi
+
+    @cached_property
+    def rated(self) -> Mapping[str, BearingStatics]:
+        """The bearing with its rating, by its name."""
+        from lambda_core.results.quasistatic import quasistatic_of
+
+        return quasistatic_of(self.equilibrium, self.rating).each
+
+    @property
+    def warnings(self) -> list[str]:
+        """No warnings: only parts of machines can conflict."""
+        return []
 
     def columns(self, names: Sequence[str]) -> Columns:
         """Return the rows of comparison methods among names."""

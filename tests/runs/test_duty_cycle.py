@@ -50,6 +50,15 @@ def test_each_phase_is_the_equilibrium_of_its_case(day: DutyCycle) -> None:
     )
 
 
+def test_a_phase_has_the_numbers_and_warnings_of_its_equilibrium() -> None:
+    heavy = {"loads.radial": "30 kN"}
+    found = api.duty(cycle({"name": "heavy", "time": "1 h", "changes": heavy})).phases[0]
+    alone = api.quasistatic("6208-axial-700", ["loads.radial=30 kN"])
+    assert (found.friction_torque_Nmm, found.power_loss_W) == (alone.friction_torque_Nmm, alone.power_loss_W)
+    assert found.warnings == alone.warnings
+    assert any("GPa" in warning for warning in found.warnings)
+
+
 def test_damages_add(day: DutyCycle) -> None:
     first, second, rest = day.phases
     assert first.reference_life_h is not None
