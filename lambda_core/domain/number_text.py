@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 NONE = "-"  # stands where there is no number
 _LEAST_BAND = 1e-2  # of a number: no model knows more than four digits of it
-_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
+LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
 def number(value: float | None, digits: int = 1) -> str:
@@ -39,7 +39,7 @@ def hours(life: float) -> str:
 
     Its scatter is a decade.
     """
-    return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
+    return f"{number(float(f'{life:.2g}'), 0)} h" if life < LONG_LIFE else f"above {number(LONG_LIFE, 0)} h"
 
 
 def hours_alone(life: float | None) -> str:

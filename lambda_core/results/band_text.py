@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lambda_core.domain.number_text import NONE, rounded
+from lambda_core.domain.number_text import LONG_LIFE, NONE, hours_alone, rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.model_band import FIELDS, LEAST_SHARE, NARROW, TEMPERATURES, Banded, ModelBand
 
@@ -46,7 +46,10 @@ def ends(found: Sequence[float], unit: str, units: UnitSystem = SI, *, named: bo
         return NARROW
     low, high = (units.value(number, unit) for number in found)
     half = 0.5 * abs(high - low)
-    text = f"{rounded(low, half)} .. {rounded(high, half)}"
+    if unit == "h" and high >= LONG_LIFE:
+        text = " .. ".join(dict.fromkeys(map(hours_alone, found)))
+    else:
+        text = f"{rounded(low, half)} .. {rounded(high, half)}"
     return f"{text} {units.unit(unit)}" if named else text
 
 

@@ -179,7 +179,7 @@ def _general(limits: Limits, found: Found) -> Iterator[Margin]:
     if limits.limiting_speed_rpm is not None:
         yield _margin("n", limits.speed_rpm, limits.limiting_speed_rpm, "1/min", "at most", maker, required=False)
     if load is not None and limits.minimum_load_N is not None:
-        basis = "SKF: 0.01 C of balls, 0.02 C of rollers"
+        basis = f"SKF: {LARGEST_LIFE_LOAD * limits.minimum_load_N / (limits.largest_load_N or math.inf):.3g} C"
         yield _margin("load", load, limits.minimum_load_N, "N", "at least", basis, required=False)
     if load is not None and limits.largest_load_N is not None:
         yield _margin("P", load, limits.largest_load_N, "N", "at most", "ISO 281: C/2", required=False)

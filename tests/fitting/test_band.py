@@ -563,6 +563,16 @@ def test_texts_show_the_band_of_every_result(designation: str, tmp_path: Path) -
         assert bool(re.search(rf"capacitance .*bearing {number}", text)) == designation.startswith("SKF 6")
 
 
+def test_bands_of_lives_end_where_lives_do() -> None:
+    """Write "above 1 000 000" in bands as in lives.
+
+    A bearing without load had a life of "0 .. 34 000 000 000 000" hours.
+    """
+    assert ends([1.1e10, 3.4e13], "h", named=True) == "above 1 000 000 h"
+    assert ends([41234.0, 3.4e13], "h") == "41 000 .. above 1 000 000"
+    assert ends([41234.0, 51234.0], "h") == "41 200 .. 51 200"
+
+
 def test_the_text_of_a_machine_shows_the_bands_of_its_bearings(tmp_path: Path) -> None:
     tables = tomllib.loads(geared_shaft("box"))
     run = api.run(tables, ["solver.duration=1 ms"], out=tmp_path / "box.h5", band=True).summary()

@@ -223,6 +223,16 @@ def test_a_report_of_one_bearing_has_four_pages(radial_run: Result, tmp_path: Pa
     assert "code of" not in page  # hashes stand in the appendix
 
 
+@pytest.mark.full
+@pytest.mark.skipif(pdf._browser() is None, reason="needs a browser on PATH")
+def test_a_report_of_two_bearings_prints_on_four_pages(tmp_path: Path) -> None:
+    case = tmp_path / "box.toml"
+    case.write_text(geared_shaft("box"), encoding="utf-8")
+    run = api.run(case, ["solver.duration=0.2 ms"], out=tmp_path / "box.h5")
+    printed = api.report(run, tmp_path / "box.pdf").read_bytes()
+    assert len(re.findall(rb"/Type /Page\b", printed)) == 4
+
+
 @pytest.mark.parametrize(
     ("bearing", "words"),
     [("SKF NU 208 ECP", "cylindrical (NU) roller bearing"), ("SKF 32208", "tapered roller bearing")],
