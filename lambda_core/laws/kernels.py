@@ -28,7 +28,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws import executable
 from lambda_core.laws.compiler_words import gist
 from lambda_core.laws.jit import binding
-from lambda_core.laws.jit.reach import Reach, UnreachableError, reach
+from lambda_core.laws.jit.reach import Reach, UnreachableError, kept_reach, reach
 from lambda_core.laws.law import Law
 from lambda_core.laws.par import par_layout
 
@@ -117,7 +117,7 @@ def kernel_reach(model: Law) -> Reach:
     kernel = plain_function(model)
     _check_arguments(model, kernel)
     try:
-        return reach(kernel)
+        return kept_reach(kernel)
     except UnreachableError as error:
         raise UnreachableError(f"{model.label}: {error}") from None
 
@@ -209,6 +209,11 @@ def argument_names(role: str) -> tuple[str, ...]:
     return tuple(argument.name for argument in ROLES[role].arguments)
 
 
+@cache
+def _signature(kernel: FunctionType) -> inspect.Signature:
+    return inspect.signature(kernel)
+
+
 def _check_arguments(model: Law, kernel: FunctionType) -> None:
     """Compare names and order with the role.
 
@@ -216,7 +221,7 @@ def _check_arguments(model: Law, kernel: FunctionType) -> None:
     """
     if model.role not in ROLES:
         raise PluginError(unknown_name("role", model.role, ROLES))
-    taken, every = inspect.signature(kernel), ROLES[model.role].arguments
+    taken, every = _signature(kernel), ROLES[model.role].arguments
     wanted = tuple(each.name for each in every if not each.optional or each.name in taken.parameters)
     plain = all(each.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for each in taken.parameters.values())
     if tuple(taken.parameters) != wanted or not plain:

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from lambda_core.elements.roller.line_film import moes_line_film
-from lambda_core.laws.jit.reach import UnreachableError, _instructions, content_key, reach
+from lambda_core.laws.jit.reach import UnreachableError, _instructions, content_key, kept_reach, reach
 
 HELPERS = """
 import math
@@ -82,6 +82,32 @@ def test_a_docstring_does_not_count_but_the_same_text_in_the_body_does() -> None
 
 def test_names_that_are_not_used_do_not_matter() -> None:
     assert reach(function(module())).key == reach(function(module(HELPERS + "OTHER = object()\n"))).key
+
+
+@pytest.mark.parametrize(
+    ("body", "change"),
+    [
+        ("helpers.deep(x)", {"SCALE": 3.0}),
+        ("helpers.deep(x)", {"deep": math.sin}),
+        ("helpers.deep(x) + abs(x)", {"SCALE": 3.0}),
+        ("helpers.shape(x)", {"TABLE": np.array([2.0, 2.0])}),
+    ],
+)
+def test_a_function_is_followed_anew_only_when_it_reads_something_else(body: str, change: dict[str, Any]) -> None:
+    helpers = module()
+    kernel = function(helpers, body)
+    before = kept_reach(kernel)
+    assert (kept_reach(kernel) is before) == ("TABLE" not in change)  # the numbers of an array can change in place
+    vars(helpers).update(change)
+    assert kept_reach(kernel).key == reach(kernel).key != before.key
+
+
+def test_a_name_that_comes_to_hide_a_function_of_python_is_seen() -> None:
+    scope: dict[str, Any] = {}
+    exec("def kernel(x):\n    return abs(x)", scope)
+    before = kept_reach(scope["kernel"])
+    scope["abs"] = math.sin
+    assert kept_reach(scope["kernel"]).key != before.key
 
 
 def test_closures_are_followed() -> None:

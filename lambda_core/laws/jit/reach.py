@@ -56,6 +56,10 @@ class Reach:
     codes: tuple[CodeType, ...]
 
 
+_Read = tuple[dict[str, Any], str, Any]  # look-up of a global: where, name, value
+_kept: dict[FunctionType, tuple[Reach, tuple[_Read, ...]]] = {}
+
+
 def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
     """Follow everything that `function` reaches.
 
@@ -72,11 +76,29 @@ def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
         For a helper with a compiled-code cache of its own, one that calls itself, and a
         global whose value cannot be hashed; the sentence names it.
     """
+    return _walked(function, lenient).reach(function)
+
+
+def kept_reach(function: FunctionType) -> Reach:
+    """Return a function's :func:`reach`, followed once.
+
+    It is followed anew when a name that it reads stands for another object. Every model asks for the reach of its
+    twenty laws, a millisecond each.
+    """
+    found, read = _kept.get(function, (None, ()))
+    if found is not None and all(scope.get(name, _MISSING) is value for scope, name, value in read):
+        return found
+    walk = _walked(function, lenient=False)
+    found = walk.reach(function)
+    if walk.is_fixed:
+        _kept[function] = found, tuple(walk.read)
+    return found
+
+
+def _walked(function: Any, lenient: bool) -> _Walk:
     walk = _Walk(lenient)
     walk.value(function, "the function itself")
-    root = _plain(function)
-    helpers = tuple(helper for helper in walk.functions if helper is not root)
-    return Reach(hashlib.sha256(b"".join(walk.added)).hexdigest(), helpers, tuple(walk.codes))
+    return walk
 
 
 def content_key(function: Callable[..., Any]) -> str:
@@ -113,6 +135,14 @@ class _Walk:
     codes: list[CodeType] = field(default_factory=list)
     seen: dict[int, int] = field(default_factory=dict)
     within: list[FunctionType] = field(default_factory=list)  # functions being followed now
+    read: list[_Read] = field(default_factory=list)
+    is_fixed: bool = True  # False where something can change in place
+
+    def reach(self, function: Any) -> Reach:
+        """Return what was followed from a function."""
+        root = _plain(function)
+        helpers = tuple(helper for helper in self.functions if helper is not root)
+        return Reach(hashlib.sha256(b"".join(self.added)).hexdigest(), helpers, tuple(self.codes))
 
     def add(self, *words: object) -> None:
         for word in words:
@@ -127,7 +157,7 @@ class _Walk:
         if value is None or value is Ellipsis or isinstance(value, bool | int | float | complex | str | bytes):
             self.add("constant", type(value).__name__, repr(value))
         elif isinstance(value, np.ndarray | np.generic):
-            array = np.asarray(value)
+            array, self.is_fixed = np.asarray(value), False
             if array.dtype.hasobject:
                 raise UnreachableError(f"{where} is an array of Python objects: use numbers")
             self.add("array", array.dtype.str, array.shape, np.ascontiguousarray(array).tobytes())
@@ -166,6 +196,7 @@ class _Walk:
         for name, default in sorted((function.__kwdefaults__ or {}).items()):
             self.value(default, f"default of {name} in {function.__qualname__} ({where})")
         free: dict[str, Any] = {}
+        self.is_fixed = self.is_fixed and function.__closure__ is None and function.__kwdefaults__ is None
         for name, cell in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True):
             free[name] = cell.cell_contents
         self.within.append(function)
@@ -188,7 +219,7 @@ class _Walk:
         for name, value in sorted(free.items()):
             if name in code.co_freevars:
                 self.value(value, f'"{name}", used by {where},')
-        for name, value in _globals_read(code, scope, where):
+        for name, value in _globals_read(code, scope, where, self.read):
             self.add("global", name)
             self.value(value, f'"{name}", used by {where},')
 
@@ -296,10 +327,10 @@ def _instructions(code: CodeType) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator[tuple[str, Any]]:
+def _globals_read(code: CodeType, scope: dict[str, Any], where: str, read: list[_Read]) -> Iterator[tuple[str, Any]]:
     """Yield every global that `code` loads.
 
-    (dotted name, value), through modules.
+    (dotted name, value), through modules; each look-up is added to `read`.
 
     A module is followed only along the attributes that are read from it.
     """
@@ -309,8 +340,10 @@ def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator
         if isinstance(value, ModuleType):
             if operation not in ("LOAD_ATTR", "LOAD_METHOD"):
                 raise UnreachableError(f'{where} hands the module "{path}" on: call {path}.function(...) directly')
-            path, value = f"{path}.{name}", getattr(value, name, _MISSING)
+            read.append((vars(value), name, getattr(value, name, _MISSING)))
+            path, value = f"{path}.{name}", read[-1][-1]
         elif operation == "LOAD_GLOBAL":
+            read.append((scope, name, scope.get(name, _MISSING)))
             path, value = name, scope.get(name, getattr(builtins, name, _MISSING))
         else:
             continue

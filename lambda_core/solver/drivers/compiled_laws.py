@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.laws.context import Oil
+from lambda_core.laws.context import Context, Oil
 from lambda_core.laws.jit.words import addresses
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.laws.tried import Choice, try_out
-from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 from lambda_core.model.laws.law_context import ContactFrame, build_context, prepare
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import begin
@@ -22,6 +23,7 @@ from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, contacts_of, g
 from lambda_core.solver.records import RACEWAY_ROLES
 
 Announce = Callable[[str], None] | None
+_Prepared = tuple[ChosenLaw, Context, FloatArray]
 # Hash of a law's code, force element and parameters of what was tried out and found in order.
 _in_order: set[tuple[str, str, str]] = set()
 
@@ -48,6 +50,7 @@ class Kernels:
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {} if near is None else near.of_laws(model)
         self.compiled: dict[tuple[str, str], Any] = {}
+        self._prepared: dict[tuple[str, str], _Prepared] = {} if near is None else dict(near._prepared)
         for element, roles in model.laws.items():
             for role, law in roles.items():
                 name = (role, law.model.label)  # two packages may have laws of one name
@@ -67,6 +70,18 @@ class Kernels:
         }
         wanted = {(role, law.model.label): law.model for roles in model.laws.values() for role, law in roles.items()}
         return {name: own[name][1] for name, law in wanted.items() if name in own and own[name][0] is law}
+
+    def parameters(self, model: BearingModel, element: str, role: str, context: Context) -> FloatArray:
+        """Return the parameters of a law as its kernel reads them.
+
+        They are those of the last call where law and context are the same: a model band solves some twenty models that
+        differ in one law.
+        """
+        law, place = model.laws[element][role], (element, role)
+        known = self._prepared.get(place)
+        if known is None or known[0] is not law or known[1] != context:
+            known = self._prepared[place] = law, context, prepare(law, context)
+        return known[2]
 
     def keys(self) -> dict[str, str]:
         """Return "element/role/model" -> hash of everything the kernel reaches."""

@@ -22,7 +22,7 @@ from lambda_core.laws.context import Context, Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.laws.law_context import build_context, effective_modulus, prepare
+from lambda_core.model.laws.law_context import build_context, effective_modulus
 from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -91,7 +91,7 @@ class _Parameters:
             oil = oil_of(bearing.oils, element)
             self._contexts[place] = build_context(bearing.model, element, bearing.frame, oil)
         if (*place, role) not in self._made:  # raceways of several rows have the same
-            self._made[*place, role] = prepare(bearing.model.laws[element][role], self._contexts[place])
+            self._made[*place, role] = bearing.kernels.parameters(bearing.model, element, role, self._contexts[place])
         self._parts.append(self._made[*place, role])
         self._size += self._parts[-1].size
         return begin, self._size
