@@ -5,8 +5,11 @@ Matrices have tens to hundreds of rows; threads would wait for each other.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import lru_cache
+from typing import Any
 
 
 @contextmanager
@@ -17,7 +20,17 @@ def one_blas_thread() -> Iterator[None]:
     threadpoolctl lets the first one set them.
     """
     import numpy.linalg  # noqa: F401 - what is not loaded yet cannot be limited
-    from threadpoolctl import threadpool_limits
 
-    with threadpool_limits(1, user_api="blas"):
+    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
         yield
+
+
+@lru_cache(maxsize=1)
+def _libraries(modules: int) -> Any:
+    """Return the BLAS libraries of this process.
+
+    Looking through all that is loaded takes milliseconds; another library comes with another Python module.
+    """
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()

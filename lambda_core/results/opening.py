@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +23,16 @@ from lambda_core.results.integrity import heaps_are_intact
 from lambda_core.results.objects import datasets, grows, scales_along, scales_in, texts_of
 
 
+class _Held(threading.local):
+    """Files of this thread in blocks of :func:`opened`."""
+
+    def __init__(self) -> None:
+        self.files: dict[Path, h5py.File] = {}
+
+
+_held = _Held()
+
+
 class ResultError(UsageError):
     """A file is not a result, or is damaged."""
 
@@ -37,8 +48,13 @@ class BeingWrittenError(ResultError):
 def opened(path: Path) -> Iterator[h5py.File]:
     """Open a result of this layout.
 
-    Any fault of the file, whenever it shows, raises a ResultError.
+    Any fault of the file, whenever it shows, raises a ResultError. Within a block that has opened it, a result is not
+    opened again: a summary asks for some thirty parts one after another.
     """
+    if (held := _held.files.get(path)) is not None:
+        with _naming_damage(path):
+            yield held
+        return
     if not path.is_file():
         what = "does not exist: name a file that lambda-bearing run has written"
         if path.exists():
@@ -52,21 +68,29 @@ def opened(path: Path) -> Iterator[h5py.File]:
                 f"{path} is not a result file (not HDF5): name a file that lambda-bearing run has written"
             ) from None
         raise ResultError(f"{path} cannot be read: {reason(error)}") from None
-    with file:
+    with file, _naming_damage(path):
+        version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
+        if version is None:
+            raise ResultError(f"{path} is an HDF5 file, but not a result of lambda-bearing")
+        if version != layout.LAYOUT:
+            raise ResultError(
+                f"{path} has layout {version}; this program reads layout {layout.LAYOUT}: use the version that wrote it"
+            )
+        _held.files[path] = file
         try:
-            version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
-            if version is None:
-                raise ResultError(f"{path} is an HDF5 file, but not a result of lambda-bearing")
-            if version != layout.LAYOUT:
-                raise ResultError(
-                    f"{path} has layout {version}; this program reads layout {layout.LAYOUT}: "
-                    "use the version that wrote it"
-                )
             yield file
-        except LambdaError:
-            raise
-        except Exception as error:  # a garbled file misleads h5py into errors of every kind
-            raise ResultError(f"{path} is damaged: {_damage(error)}") from None
+        finally:
+            del _held.files[path]
+
+
+@contextmanager
+def _naming_damage(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except LambdaError:
+        raise
+    except Exception as error:  # a garbled file misleads h5py into errors of every kind
+        raise ResultError(f"{path} is damaged: {_damage(error)}") from None
 
 
 def _damage(error: Exception) -> str:

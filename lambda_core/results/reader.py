@@ -85,8 +85,8 @@ class Result:
         with opened(self.path) as file:
             check_alone(file)
             self._read(file, bearing)
-        self._family = {self.bearing: self}  # results of this file, which was checked once for all of them
-        self.status()
+            self._family = {self.bearing: self}  # results of this file, which was checked once for all of them
+            self.status()
 
     def _read(self, file: h5py.File, bearing: str | None) -> None:
         words = (printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created"))

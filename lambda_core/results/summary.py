@@ -41,6 +41,7 @@ from lambda_core.results.machine_numbers import (
 from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.numerical_damping import FOURTH_POWERS, ITERATION_WORK, NumericalDamping, numerical_damping
 from lambda_core.results.observed import observed_numbers, occurred_events
+from lambda_core.results.opening import opened
 from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
@@ -191,6 +192,11 @@ def summarise(result: Result) -> Summary:
 
     The file is of a machine, or of the bearing that the result looks at.
     """
+    with opened(result.path):  # once for all that is read
+        return _summarised(result)
+
+
+def _summarised(result: Result) -> Summary:
     status = result.status()
     if not status.rows.samples or not status.rows.records:
         raise UsageError(f"{result.path} holds no samples yet: wait for the first ones, or run the case again")

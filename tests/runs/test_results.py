@@ -17,7 +17,7 @@ from fake_engine import FakeEngine, MakeProvenance, Truth
 from lambda_core.domain.channels import CHANNELS, LOSSES
 from lambda_core.domain.errors import UsageError
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.results.opening import ResultError
+from lambda_core.results.opening import ResultError, opened
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
 from lambda_core.runs.loop import run
@@ -49,6 +49,16 @@ def test_every_channel_has_unit_meaning_and_named_dimensions(result: Result) -> 
             assert item.attrs["units"]
             assert item.attrs["long_name"]
             assert item.is_scale or all(len(dim) == 1 for dim in item.dims), item.name
+
+
+def test_a_block_that_has_a_result_open_does_not_open_it_again(result: Result) -> None:
+    with opened(result.path) as outer:
+        with opened(result.path) as inner:
+            assert inner is outer
+        with pytest.raises(ResultError, match="is damaged"), opened(result.path) as inner:
+            inner["nothing"]
+        assert outer  # open until the block ends that opened it
+    assert not outer
 
 
 def _datasets(file: h5py.File) -> list[h5py.Dataset]:

@@ -72,7 +72,7 @@ class Kernels:
         return {name: own[name][1] for name, law in wanted.items() if name in own and own[name][0] is law}
 
     def parameters(self, model: BearingModel, element: str, role: str, context: Context) -> FloatArray:
-        """Return the parameters of a law as its kernel reads them.
+        """Return a law's parameters as its kernel reads them.
 
         They are those of the last call where law and context are the same: a model band solves some twenty models that
         differ in one law.
