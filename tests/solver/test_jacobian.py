@@ -95,3 +95,28 @@ def test_balls_that_touch_nothing_have_their_weight_and_inertia() -> None:
     of_balls = slice(0, m.count * L.NB)
     largest = np.abs(exact[of_balls]).max(axis=1, keepdims=True)
     assert np.all(np.abs(ours - exact)[of_balls] < 1e-4 * largest + 1e-6)
+
+
+@pytest.mark.parametrize("axis", ["rolling", "across", "normal"])
+def test_a_ball_that_turns_about_its_contact_has_its_slopes(axis: str) -> None:
+    """Compare the slope along a turn about a contact's centre.
+
+    The ball touches the outer raceway alone and rolls, so that no other slope hides those with relative rotation: its
+    turn leaves the slip at the centre unchanged, and it has no entrainment across.
+    """
+    m = machine("bearing.clearance=200 um", "models.cage_contact=none", "models.fluid_drag=none")
+    g, state, angle, depth = m.model.geometry, rolling(m, 150.0), 0.1, 8e-6
+    reach = g.groove_radius_outer - 0.5 * g.ball_diameter + depth
+    state.balls[:, L.BX] = reach * np.sin(angle)
+    state.balls[:, L.BR] = float(m.constant("groove_circle")[1]) + reach * np.cos(angle)
+    state.balls[:, [L.BWX, L.BVT]] *= [1.02, 1.001]
+    state.balls[:, L.BWR] += 3.0
+    y, normal, along = m.vector(state), np.array([np.sin(angle), np.cos(angle), 0.0]), np.array([0.0, 0.0, 1.0])
+    turn = {"rolling": along, "across": np.cross(normal, along), "normal": normal}[axis]
+    way = np.zeros(y.size)
+    way[L.BVX : L.BVX + 6] = [*-(0.5 * g.ball_diameter - 0.5 * depth) * np.cross(turn, normal), *turn]
+    exact = (m.evaluate(y + 1e-4 * way, want=0).dydt - m.evaluate(y - 1e-4 * way, want=0).dydt) / 2e-4
+    ours = m.jacobian(y) @ way
+    assert m.evaluate(y).ball_forces[0, 1] < -100.0
+    for rates in (slice(L.BVX, L.BVX + 3), slice(L.BVX + 3, L.BVX + 6)):
+        assert ours[rates] == pytest.approx(exact[rates], abs=1e-3 * np.abs(exact[rates]).max())
