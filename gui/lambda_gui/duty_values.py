@@ -130,32 +130,20 @@ def cycle_view(
 
     They fit 80 columns, one for each bearing; the sum is in words.
     """
-    from lambda_core.api import DutyCycle as OneBearing  # loaded already: one of its kind has been read
-
-    if not isinstance(found, OneBearing):
-        tables: list[RenderableType] = []
-        for name, own in found.bearings.items():
-            tables += [Text(name, style="bold"), _table(own, units), Text()]
-        life = [f"{_life(found.system_life_h)} h", " of all bearings together\n"]
-        warned = [("", words) for words in found.warnings]
-        for name, own in found.bearings.items():
-            warned += [(phase.name, f"{name}: {words}") for phase in own.phases for words in phase.warnings]
-    else:
-        tables = [_table(found, units), Text()]
-        life = [
-            f"{_life(found.reference_life_h)} h",
-            f" (ISO/TS 16281)   {_life(found.basic_life_h)} h (ISO 281), damages added\n",
-        ]
-        warned = [(phase.name, words) for phase in found.phases for words in phase.warnings]
+    tables: list[RenderableType] = []
+    for name, own in found.each.items():
+        tables += [*([Text(name, style="bold")] if name else []), _table(own, units), Text()]
+    (life, words), *others = found.lives
+    further = "".join(f"   {_life(other)} h {of}" for other, of in others)
     text = Text.assemble(
         ("life    ", "dim"),
-        (life[0], "bold"),
-        (life[1], "dim"),
+        (f"{_life(life)} h", "bold"),
+        (f" {words}{further}\n", "dim"),
         ("energy  ", "dim"),
         (f"{number(found.energy_loss_kJ)} kJ", "bold"),
         f" lost in a cycle of {number(found.cycle_h, 2)} h, {number(found.energy_loss_kWh_per_year)} kWh in a year\n",
     )
-    for phase, words in warned:
+    for phase, words in found.told():
         text.append("▲ ", style=warning).append(f"{phase}: " if phase else "").append(f"{units.sentence(words)}\n")
     for words in found.assumptions:
         text.append("· ", style="dim").append(f"{units.sentence(words)}\n", style="dim")

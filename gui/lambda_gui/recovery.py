@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.api import Status, save_text, this_process
+from lambda_core.api import Status, is_machine, save_text, this_process
 from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
@@ -41,8 +41,7 @@ class Rescue:
     @property
     def is_machine(self) -> bool:
         """True for the case of a machine."""
-        tables = tomllib.loads(self.text)
-        return "shaft" in tables or "bearings" in tables
+        return is_machine(tomllib.loads(self.text))
 
     def age(self) -> str:
         """Return how long ago it was kept, for people."""

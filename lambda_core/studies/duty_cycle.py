@@ -88,16 +88,40 @@ class PhaseResult(Record):
     warnings: list[str]
 
 
-class DutyCycle(Record):
-    """Sum of a duty cycle.
-
-    A life is null where a phase has none.
-    """
+class CycleSum(Record):
+    """Sum of the duty cycle of a bearing or machine."""
 
     interface: int = INTERFACE
     name: str
     case: str
     cycle_h: float = Field(description="duration of one cycle")
+
+    @property
+    def each(self) -> Mapping[str, DutyCycle]:
+        """Cycle of each bearing by name, empty if alone."""
+        raise NotImplementedError
+
+    @property
+    def lives(self) -> list[tuple[float | None, str]]:
+        """Lives [h] with what they are; the decisive one first."""
+        raise NotImplementedError
+
+    def told(self) -> list[tuple[str, str]]:
+        """Return all warnings, each with its phase."""
+        return [
+            (phase.name, f"{name}: {words}" if name else words)
+            for name, own in self.each.items()
+            for phase in own.phases
+            for words in phase.warnings
+        ]
+
+
+class DutyCycle(CycleSum):
+    """Sum of a duty cycle.
+
+    A life is null where a phase has none.
+    """
+
     phases: list[PhaseResult]
     basic_life_h: float | None = Field(description="L_10h of ISO 281, damages added")
     reference_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, damages added")
@@ -107,6 +131,16 @@ class DutyCycle(Record):
     energy_loss_kJ: float | None = Field(description="of all phases, in one cycle")
     energy_loss_kWh_per_year: float | None = Field(description="of a cycle that is repeated without a pause, in 8766 h")
     assumptions: list[str]
+
+    @property
+    def each(self) -> Mapping[str, DutyCycle]:
+        """This cycle alone."""
+        return {"": self}
+
+    @property
+    def lives(self) -> list[tuple[float | None, str]]:
+        """Reference and basic rating life [h]."""
+        return [(self.reference_life_h, "(ISO/TS 16281)"), (self.basic_life_h, "(ISO 281), damages added")]
 
     def text(self, units: UnitSystem = SI) -> str:
         """Return the table of phases.
@@ -120,9 +154,13 @@ class DutyCycle(Record):
             f"energy   {number(self.energy_loss_kJ)} kJ are lost in a cycle, "
             f"{number(self.energy_loss_kWh_per_year)} kWh in a year of cycles without a pause",
         ]
-        warned = [f"{phase.name}: {units.sentence(text)}" for phase in self.phases for text in phase.warnings]
-        lines += ["", *(f"WARNING  {text}" for text in warned), *(f"assumed  {text}" for text in self.assumptions)]
-        return "\n".join(lines)
+        return "\n".join([*lines, "", *closing_lines(self.told(), self.assumptions, units)])
+
+
+def closing_lines(told: Sequence[tuple[str, str]], assumptions: Sequence[str], units: UnitSystem) -> list[str]:
+    """Return warnings with their phases, then assumptions."""
+    warned = [f"WARNING  {f'{phase}: ' if phase else ''}{units.sentence(words)}" for phase, words in told]
+    return [*warned, *(f"assumed  {text}" for text in assumptions)]
 
 
 def duty_table(found: DutyCycle, units: UnitSystem) -> list[str]:

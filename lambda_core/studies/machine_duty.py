@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import Field
@@ -12,8 +12,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.life import system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
-from lambda_core.results.record import INTERFACE, Record
-from lambda_core.studies.duty_cycle import YEAR, DutyCycle, duty_table
+from lambda_core.studies.duty_cycle import YEAR, CycleSum, DutyCycle, closing_lines, duty_table
 
 SYSTEM = (
     "life of all bearings: (sum L_i^-e)^(-1/e), e = 10/9 for balls, from L_10rh of each over the cycle "
@@ -21,16 +20,12 @@ SYSTEM = (
 )
 
 
-class MachineDutyCycle(Record):
+class MachineDutyCycle(CycleSum):
     """Sum of a machine's duty cycle.
 
     A life is null where a phase has none.
     """
 
-    interface: int = INTERFACE
-    name: str
-    case: str
-    cycle_h: float = Field(description="duration of one cycle")
     bearings: dict[str, DutyCycle] = Field(description="the cycle of each bearing by its name")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     mean_power_loss_W: float | None = Field(description="of all bearings")
@@ -38,6 +33,23 @@ class MachineDutyCycle(Record):
     energy_loss_kWh_per_year: float | None = Field(description="of a cycle repeated without a pause, in 8766 h")
     warnings: list[str] = Field(description="geometric conflicts of parts on the shaft")
     assumptions: list[str]
+
+    @property
+    def each(self) -> Mapping[str, DutyCycle]:
+        """Cycle of each bearing by its name."""
+        return self.bearings
+
+    @property
+    def lives(self) -> list[tuple[float | None, str]]:
+        """Life of all bearings [h]."""
+        return [(self.system_life_h, "of all bearings together")]
+
+    def told(self) -> list[tuple[str, str]]:
+        """Return all warnings, each with its phase.
+
+        Those about the machine have none.
+        """
+        return [*(("", words) for words in self.warnings), *super().told()]
 
     def text(self, units: UnitSystem = SI) -> str:
         """Return the table of each bearing.
@@ -55,11 +67,7 @@ class MachineDutyCycle(Record):
             f"energy        {number(self.energy_loss_kJ)} kJ are lost in a cycle, "
             f"{number(self.energy_loss_kWh_per_year)} kWh in a year of cycles without a pause",
         ]
-        told = [*self.warnings]
-        for name, own in self.bearings.items():
-            told += [f"{phase.name}: {name}: {text}" for phase in own.phases for text in phase.warnings]
-        lines += ["", *(f"WARNING  {units.sentence(text)}" for text in told)]
-        return "\n".join([*lines, *(f"assumed  {text}" for text in self.assumptions)])
+        return "\n".join([*lines, "", *closing_lines(self.told(), self.assumptions, units)])
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data, ready for JSON."""
