@@ -42,17 +42,20 @@ def cage_speed(inner_speed: float, outer_speed: float, gamma: float) -> float:
 
 
 def rolling_ratio(
-    load: FloatArray, angle: FloatArray, radius: FloatArray, spin: FloatArray, orbit: FloatArray, ball_diameter: float
-) -> float:
+    load: FloatArray, angle: FloatArray, radius: FloatArray, spin: FloatArray, orbit: FloatArray, ball_diameter: float,
+    *, approach: FloatArray | float = 0.0, rise: FloatArray | None = None,
+) -> float:  # fmt: skip
     """Return the cage speed over inner ring speed.
 
     The balls roll at both raceways; both speeds are relative to the outer ring.
 
     A ball whose own axis leans by b against the shaft rolls where R omega_b cos(a - b) is the speed of the raceway
-    past it: omega_c/omega = r_i cos(a_o - b)/[r_i cos(a_o - b) + r_o cos(a_i - b)], r_i = r - R cos(a_i),
-    r_o = r + R cos(a_o) (Jones 1959, J. Basic Eng. 81, 1; Harris and Kotzalas 2006, vol. 2, ch. 2, with b of the ball
-    itself in place of one raceway's control). With equal angles b drops out and Harris's (1 - D_w cos(a)/d_m)/2 is
-    left. Mean over balls, weighted by the load at the inner ring; NaN without load.
+    past it: omega_c/omega = (r_i - e) c_o/[r_i c_o + r_o c_i], c = (R - h) cos(a - b), r_i = r - (R - h_i) cos(a_i),
+    r_o = r + (R - h_o) cos(a_o) (Jones 1959, J. Basic Eng. 81, 1; Harris and Kotzalas 2006, vol. 2, ch. 2, with b of
+    the ball itself in place of one raceway's control). The inner ring, nearer by e, turns about its own centre; h is
+    the height over the middle of the track at which the contact rolls. With equal angles,
+    e = 0 and h = 0, b drops out and Harris's (1 - D_w cos(a)/d_m)/2 is left. Mean over balls, weighted by the load at
+    the inner ring; NaN without load.
 
     Parameters
     ----------
@@ -66,18 +69,24 @@ def rolling_ratio(
         Orbital speed of the balls [rad/s].
     ball_diameter : float
         D_w [m].
+    approach : float64[..., Z] or float
+        e, displacement of the inner ring towards each ball [m].
+    rise : float64[..., Z, 2], optional
+        h at both rings [m]; absent: 0.
     """
-    inner, outer, R = angle[..., 0], angle[..., 1], 0.5 * ball_diameter
+    inner, outer = angle[..., 0], angle[..., 1]
+    arm = 0.5 * ball_diameter - (np.zeros_like(angle) if rise is None else rise)
     axial, radial = orbit - spin[..., 0], spin[..., 1]
     # the axis has no direction of its own: between -90 and 90 degrees, whichever way the ball turns
     lean = np.arctan2(np.where(axial < 0.0, -radial, radial), np.abs(axial))
-    at_inner = (radius - R * np.cos(inner)) * np.cos(outer - lean)
-    at_outer = (radius + R * np.cos(outer)) * np.cos(inner - lean)
+    turn_inner, turn_outer = arm[..., 0] * np.cos(inner - lean), arm[..., 1] * np.cos(outer - lean)
+    at_inner = (radius - arm[..., 0] * np.cos(inner)) * turn_outer
+    at_outer = (radius + arm[..., 1] * np.cos(outer)) * turn_inner
     weight = np.where(load.min(axis=-1) > 0.0, load[..., 0], 0.0)
     carried = weight > 0.0
     if not carried.any():
         return math.nan
-    ratio = at_inner[carried] / (at_inner[carried] + at_outer[carried])
+    ratio = ((at_inner - approach * turn_outer) / (at_inner + at_outer))[carried]
     return float(weight[carried] @ ratio / weight[carried].sum())
 
 

@@ -398,7 +398,7 @@ class _Span:
             pressure = max(pressure, float(block["max_pressure"][loaded].max()))
             film = min(film, float(block["film_minimum"][loaded].min()))
             carried = float(load[..., 0].sum())
-            rolling = rolling_of(block, float(result.model["geometry"]["ball_diameter"]))
+            rolling = rolling_of(block, result.model["geometry"], are_rollers=result.model.get("rollers") is not None)
             if math.isfinite(rolling):
                 weighted, total = weighted + carried * rolling, total + carried
         about_y, about_z = (float(angle) / count if count else math.nan for angle in tilts)

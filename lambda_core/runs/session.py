@@ -332,7 +332,8 @@ class Session:
         name = max(samples.bearings, key=lambda name: float(samples.bearings[name]["load"][-1].max()))
         shown = samples.bearings[name]
         self._loads = tuple(shown["load"][-1, :, RINGS.index("inner")].tolist())
-        self._epicyclic = rolling_of(shown, self._models[name].geometry.ball_diameter)
+        model = self._models[name]
+        self._epicyclic = rolling_of(shown, vars(model.geometry), are_rollers=model.rollers is not None)
 
     def _flush(self, state: State, message: str) -> None:
         self._collect()

@@ -6,6 +6,7 @@ Zero slip where nothing slips, at any speed and contact angle.
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,6 +81,40 @@ def test_the_reference_is_that_of_contacts_that_roll(lean: float) -> None:
     orbit = speed / outer
     ring = orbit + 0.5 * BALL * math.cos(angles[0] - lean) / inner
     assert ratio == pytest.approx(orbit / ring, rel=1e-12)
+
+
+def test_the_reference_of_a_ring_to_the_side_is_that_of_contacts_that_roll() -> None:
+    """Turn the inner ring about its own centre."""
+    angle, radius, near, rise = 0.3, 0.0775, 60e-6, (120e-6, 90e-6)
+    inner, outer = (0.5 * BALL - height for height in rise)
+    speed = outer * math.cos(angle)  # past the outer raceway, of a ball that turns at 1 rad/s about an axis like x
+    orbit = speed / (radius + outer * math.cos(angle))
+    ring = orbit * (radius - inner * math.cos(angle)) + inner * math.cos(angle)  # speed of the inner raceway
+    turns = ring / (radius - inner * math.cos(angle) - near)
+    ratio = rolling_ratio(
+        np.ones((1, 2)), np.full((1, 2), angle), np.array([radius]), np.array([[-1.0, 0.0, 0.0]]), np.zeros(1), BALL,
+        approach=np.array([near]), rise=np.array([rise]),
+    )  # fmt: skip
+    assert ratio == pytest.approx(orbit / turns, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("designation", "radial", "axial"),
+    [("SKF 6208", "8 kN", "0 N"), ("SKF 6208", "0 N", "5 kN"), ("SKF NU 208", "20 kN", "0 N")],
+)
+def test_a_run_starts_without_slip(designation: str, radial: str, axial: str, tmp_path: Path) -> None:
+    """Find no slip in equilibria without drag.
+
+    The slip was -0.28, -0.26 and 0.21 %: the inner ring turned about the bearing's axis, and balls rolled on the bottom
+    of their grooves.
+    """
+    case = {
+        "name": "start", "bearing": {"designation": designation}, "operation": {"speed": "1000 rpm"},
+        "lubricant": {"name": "FVA3", "temperature": "60 degC"}, "loads": {"radial": radial, "axial": axial},
+        "models": {"fluid_drag": "none"}, "gravity": {"z": "0 m/s2"},
+    }  # fmt: skip
+    found = api.run(case, ["solver.duration=20 us"], out=tmp_path / "start.h5").summary()
+    assert found.cage_speed_over_epicyclic == pytest.approx(1.0, abs=6e-4)
 
 
 def test_with_equal_angles_the_reference_is_harris() -> None:

@@ -116,6 +116,8 @@ class FakeEngine:
         found["contact_angle"][:] = 0.0
         found["ball_radius"][:] = 73.75e-3  # pitch circle of the 6319
         found["ball_azimuth"] *= 10.0
+        found["semi_axis_a"] *= 1e-9
+        found["body_position"] *= 1e-9
         return Samples(times, {}, {ALONE: found})
 
     def integrals(self) -> dict[str, dict[str, float]]:

@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from lambda_core.plugins import Axis, FloatArray, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_plugins.views.azimuth import AZIMUTH
-from lambda_plugins.views.common import BODY, averaging, number, over_azimuth, require_cage, source, speeds, trace
+from lambda_plugins.views.common import BODY, Span, averaging, number, over_azimuth, require_cage, source, speeds, trace
 
 _SMALL = 0.5  # of the clearance: an orbit below is shown once more, enlarged
 _WHIRL_WINDOW = 0.1  # cage revolutions over which the whirl speed is averaged
@@ -34,7 +35,7 @@ def _circle(radius: float) -> tuple[FloatArray, FloatArray]:
 def cage_orbit(run: RunData, options: Options) -> ViewData:
     """Show path, whirl and speed of the cage.
 
-    The whirl speed is over the cage speed, and the cage speed over the kinematic one.
+    The whirl speed is over the cage speed, and the cage speed over that of rolling.
     """
     require_cage(run)
     span = averaging(run)
@@ -49,7 +50,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
     close = _close_up(path, end, 1e6 * radius)
     if math.isfinite(radius):
         series.append(Series(name, *_circle(1e6 * radius), "line", "reference"))
-    kinematic = speeds(run, span).cage
+    kinematic = _rolling(run, span)
     if kinematic == 0.0:
         raise NotApplicable("the rings stand still: the cage has no speed to compare with")
     ratio = trace("cage speed", 1e3 * time, spin / kinematic, "cage")
@@ -58,14 +59,25 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
         Panel("orbit of the centre", Axis("y", "um"), Axis("z", "um"), tuple(series), shape="plane"),
         *close,
         Panel("whirl", Axis("time", "ms"), Axis("whirl speed over cage speed"), whirl, (Mark("in step", 1.0),)),
-        Panel("cage speed", Axis("time", "ms"), Axis("over kinematic speed"), (ratio,), (Mark("no slip", 1.0),)),
+        Panel("cage speed", Axis("time", "ms"), Axis("over speed of rolling"), (ratio,), (Mark("no slip", 1.0),)),
     )
     notes = (
         f"over {span.words}; relative to the {'inner' if body == 0 else 'outer'} ring",
         f"whirl: angular speed of the cage's centre round the axis, means over {_WHIRL_WINDOW:g} cage revolutions",
-        f"kinematic cage speed {kinematic * 30.0 / math.pi:.5g} rpm",
+        f"cage speed of rolling {kinematic * 30.0 / math.pi:.5g} rpm",
     )
     return ViewData("cage-orbit", "Orbit and whirl of the cage", source(run), panels, 2, notes)
+
+
+def _rolling(run: RunData, span: Span) -> float:
+    """Return the cage speed at which loaded elements roll [rad/s].
+
+    Without load it is the kinematic one.
+    """
+    rows, mean = span.rows(run["time"]), speeds(run, span)
+    samples = {name: run[name][rows] for name in ROLLING}
+    ratio = rolling_of(samples, run.model["geometry"], are_rollers=run.model.get("rollers") is not None)
+    return mean.outer + ratio * (mean.inner - mean.outer) if math.isfinite(ratio) else mean.cage
 
 
 def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
