@@ -46,6 +46,10 @@ _NAMES: dict[Kind, tuple[str, str]] = {  # table and column
 }
 
 
+# Rows of rollers by the content of the database: every check of a case asks whether its bearing is one of them.
+_rollers: dict[str, tuple[RollerRow, ...]] = {}
+
+
 def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
     """Open the catalogue with the user's own rows.
 
@@ -67,13 +71,13 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
             raise _error(
                 str(folder), "is not a folder, but a plugin names it for its catalogue rows: correct the plugin"
             )
-    return SqlCatalogue(_connection_to(folders), tuple(folders))
+    return SqlCatalogue(*_connection_to(folders), tuple(folders))
 
 
-def _connection_to(folders: list[Path]) -> sqlite3.Connection:
+def _connection_to(folders: list[Path]) -> tuple[sqlite3.Connection, str]:
     """Return a connection to the core database.
 
-    Build the database where it is missing.
+    Build the database where it is missing. Also return the file's name, which has the hash of its content.
     """
     path = find_built(folders)
     if path is None:
@@ -81,8 +85,8 @@ def _connection_to(folders: list[Path]) -> sqlite3.Connection:
 
         path = build.core_database(folders)
         if path is None:
-            return build.in_memory(folders)
-    return connect(file_uri(path, "ro"))
+            return build.in_memory(folders), ""
+    return connect(file_uri(path, "ro")), path.name
 
 
 def _error(where: str, message: str) -> CatalogueError:
@@ -97,8 +101,8 @@ def _places(one: str, values: Sequence[object]) -> str:
 class SqlCatalogue:
     """Catalogue over one read-only connection; implements :class:`lambda_core.catalogue.protocol.Catalogue`."""
 
-    def __init__(self, connection: sqlite3.Connection, plugin_folders: tuple[Path, ...] = ()) -> None:
-        self._file = connection
+    def __init__(self, connection: sqlite3.Connection, content: str, plugin_folders: tuple[Path, ...] = ()) -> None:
+        self._file, self._content = connection, content
         self._plugin_folders = plugin_folders
         self._overlaid = False
         self.refresh()
@@ -200,8 +204,13 @@ class SqlCatalogue:
 
     def rollers(self) -> list[RollerRow]:
         """Return every roller bearing, by designation and maker."""
+        if self._content in _rollers and not self._overlaid:
+            return list(_rollers[self._content])
         found = self._rows("SELECT * FROM roller_design ORDER BY designation, maker")
-        return [rows.roller_row(row, self._sources) for row in found]
+        made = [rows.roller_row(row, self._sources) for row in found]
+        if self._content and not self._overlaid:
+            _rollers[self._content] = tuple(made)
+        return made
 
     def _named_row(self, kind: Literal["lubricant", "material", "cage"], name: str) -> Any:
         """Return a row by name or alias, case ignored."""
