@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import types
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from typing import Annotated, Any, get_args, get_origin
@@ -19,6 +19,7 @@ import numpy as np
 from pydantic import BaseModel
 
 _NUMBERS = (float, int, bool)
+_KINDS = (float, int, np.number)  # of values; a tuple is asked faster than a union
 
 
 class RecordError(ValueError):
@@ -80,7 +81,7 @@ def is_record(candidate: Any) -> bool:
     return issubclass(candidate, BaseModel) or is_dataclass(candidate) or hasattr(candidate, "_fields")
 
 
-def flatten(layout: Layout, record: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+def flatten(layout: Layout, record: Any, behind: Iterable[float] = ()) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Return a record as one flat array.
 
     Parameters
@@ -89,6 +90,8 @@ def flatten(layout: Layout, record: Any) -> np.ndarray[Any, np.dtype[np.float64]
         Of the record's type.
     record : object
         With these names, SI.
+    behind : iterable of float
+        Finite numbers that follow the record.
 
     Returns
     -------
@@ -100,7 +103,7 @@ def flatten(layout: Layout, record: Any) -> np.ndarray[Any, np.dtype[np.float64]
     RecordError
         Naming the member that is no finite number, or no array of such.
     """
-    return np.array(list(_words(layout, record, "")), dtype=np.float64)
+    return np.array([*_words(layout, record, ""), *behind], dtype=np.float64)
 
 
 def _hints(record: type) -> Iterator[tuple[str, Any]]:
@@ -147,7 +150,7 @@ def _words(layout: Layout, record: Any, path: str) -> Iterator[float]:
             yield float(values.size)
             yield from values.tolist()
         else:
-            if not isinstance(value, int | float | np.number):
+            if not isinstance(value, _KINDS):
                 raise RecordError(f"{name} = {value!r}, must be a number")
             if not math.isfinite(value):
                 raise RecordError(f"{name} = {value}, must be finite")

@@ -14,7 +14,6 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-import numpy as np
 from pydantic import BaseModel
 
 from lambda_core.domain.arrays import FloatArray
@@ -107,7 +106,7 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
             limits = f"{state.lower:g} to {state.upper:g} {state.unit}"
             raise PluginError(f"{law.label}: its state {state.name} starts at {value:g}; allowed: {limits}")
     try:
-        return np.append(flatten(layout_of(wanted), made), states)
+        return flatten(layout_of(wanted), made, states)
     except RecordError as error:
         source = "prepare returns" if law.prepare else "the parameters have"
         raise PluginError(f"{law.label}: {source} {error}") from None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
@@ -37,7 +39,7 @@ def cell_block(cells: int, contacts: int) -> FloatArray:
 def unit_grid(strips: int, rows: int) -> FloatArray:
     """Divide the unit ellipse into strips and rows.
 
-    Weights carry area and load exactly.
+    Weights carry area and load exactly. Each call returns an array of its own.
 
     Returns
     -------
@@ -45,6 +47,11 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
         Rows of layout.Grid. sum(area) = pi and sum(area * pressure) = 2 pi/3, the Hertzian load over
         a b p_max.
     """
+    return _unit_grid(strips, rows).copy()
+
+
+@cache
+def _unit_grid(strips: int, rows: int) -> FloatArray:
     edges = np.linspace(-1.0, 1.0, strips + 1)
     mid = 0.5 * (edges[1:] + edges[:-1])
     area, load = np.diff(_disc_area(edges)), np.diff(0.5 * np.pi * (edges - edges**3 / 3.0))

@@ -16,7 +16,7 @@ from lambda_core.laws.state import ROLE
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.state_channels import state_channels, states_of
 from lambda_core.solver.drivers.assembly import Assembly
-from lambda_core.solver.drivers.tables import Tables
+from lambda_core.solver.drivers.tables import Tables, plain
 
 _STEP = 1e-6  # of a state's scale, for the slopes of its rates
 
@@ -29,7 +29,7 @@ def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
     models = [bearing.model for bearing in assembly.bearings]
     counts = [model.geometry.ball_count for model in models for _ in raceways(model.geometry)]
     starts = []
-    for raceway, balls in zip(tables.raceways, counts, strict=True):
+    for raceway, balls in zip(plain(tables.raceways), counts, strict=True):
         end, count = int(raceway["parameters"][ROLE][1]), int(raceway["states"])
         starts.append(np.tile(tables.par[end - count : end], balls))
     start = np.concatenate(starts)

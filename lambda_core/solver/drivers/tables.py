@@ -131,6 +131,14 @@ class _Offsets(NamedTuple):
     waves: int = 0
 
 
+def plain(table: Any) -> Any:
+    """Return a view of records without attributes.
+
+    Python writes and reads their fields twenty times as fast.
+    """
+    return table.view(np.dtype((np.void, table.dtype)))
+
+
 def running(powers: FloatArray) -> Any:
     """Return the powers behind the raceways' losses.
 
@@ -214,7 +222,7 @@ def _part(assembly: Assembly, i: int, span: BearingSpan, offsets: _Offsets, para
 
 def _system(assembly: Assembly, raceways: Any) -> Any:
     system = np.zeros(1, R.SYSTEM)
-    s = system[0]
+    s = plain(system)[0]
     s["balls"] = sum(bearing.model.geometry.balls for bearing in assembly.bearings)
     s["tail"] = assembly.spans()[-1].end
     s["gravity"] = assembly.gravity
@@ -226,7 +234,7 @@ def _system(assembly: Assembly, raceways: Any) -> Any:
 
 def _bodies(assembly: Assembly) -> Any:
     bodies = np.zeros(len(assembly.members), R.BODY)
-    for record, member in zip(bodies, assembly.members, strict=True):
+    for record, member in zip(plain(bodies), assembly.members, strict=True):
         body = member.body
         for name in ("mass", "transverse_inertia", "polar_inertia", "unbalance"):
             record[name] = getattr(body, name)
@@ -236,7 +244,7 @@ def _bodies(assembly: Assembly) -> Any:
         record["moves"], record["bearing"] = 1, -1
     found = [bodies]
     for i, bearing in enumerate(assembly.bearings):
-        cage, waves = bodies[bearing.members[CAGE]], wave_bodies(bearing.model)
+        cage, waves = plain(bodies)[bearing.members[CAGE]], wave_bodies(bearing.model)
         cage["moves"], cage["is_cage"] = int(bearing.model.depth.cage), 1
         bodies["bearing"][list(bearing.members)] = waves["bearing"] = i
         found.append(waves)
@@ -249,7 +257,7 @@ def _active(bodies: Any) -> NDArray[np.int64]:
     The angles of prescribed spins are among them.
     """
     found: list[int] = []
-    for b, body in enumerate(bodies):
+    for b, body in enumerate(plain(bodies)):
         if not body["moves"]:
             continue
         for mode, position, rate in zip(body["mode"], _POSITIONS, _RATES, strict=True):
@@ -287,7 +295,7 @@ def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, p
     g, radius = model.geometry, 0.5 * model.geometry.ball_diameter
     grooves = raceways_of(g)
     raceways = np.zeros(len(grooves), R.RACEWAY)
-    for i, (record, groove) in enumerate(zip(raceways, grooves, strict=True)):
+    for i, (record, groove) in enumerate(zip(plain(raceways), grooves, strict=True)):
         ring, element = groove.ring, groove.element
         rx, ry = ball_raceway_radii(
             g.ball_diameter, g.pitch_diameter, groove.groove_radius, frame.angles[ring], inner=ring == INNER
@@ -328,7 +336,7 @@ def _keep_states(model: BearingModel, raceways: Any, span: BearingSpan, before: 
     """
     slots: list[tuple[int, int, float, float]] = []
     count, each = span.first_state, model.geometry.ball_count
-    for record, groove in zip(raceways, raceways_of(model.geometry), strict=True):
+    for record, groove in zip(plain(raceways), raceways_of(model.geometry), strict=True):
         states = states_of(model, groove.element)
         kept = [state.name for state in states]
         begin = len(slots)
@@ -349,7 +357,7 @@ def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _O
     g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
     rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(bearing, guides(model)[0], "cage_contact")
     each, size = len(raceways_of_a_ball(g)), states_of_an_element(model)
-    for i, (record, place) in enumerate(zip(rows, row_places(g), strict=True)):
+    for i, (record, place) in enumerate(zip(plain(rows), row_places(g), strict=True)):
         record["number"], record["bearing"] = span.first_row + i, number
         record["first_ball"], record["balls"] = span.first_ball + i * g.ball_count, g.ball_count
         record["first_state"], record["size"] = span.begin + i * size * g.ball_count, size
@@ -407,7 +415,7 @@ def _links(assembly: Assembly, number: int, offsets: _Offsets, parameters: _Para
     """
     own = [(i, link) for i, link in enumerate(assembly.links) if link.bearing == number]
     found = np.zeros(len(own), R.LINK)
-    for k, (record, (i, link)) in enumerate(zip(found, own, strict=True)):
+    for k, (record, (i, link)) in enumerate(zip(plain(found), own, strict=True)):
         record["number"], record["law"] = i, offsets.links + k
         record["first"], record["second"] = link.first, link.second
         record["first_place"], record["second_place"] = link.first_place, link.second_place
