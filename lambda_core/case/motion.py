@@ -80,6 +80,7 @@ class CageBody(RingBody):
     guidance: Literal["ball", "inner ring", "outer ring"] | None = option(None, "what centres the cage")
     pocket_clearance: SmallLength | None = option(None, "diametral clearance of ball and pocket", gt=0.0)
     land_clearance: SmallLength | None = option(None, "diametral clearance of cage and guiding ring", gt=0.0)
+    per_row: bool = option(False, "two rows: a cage for each row, in place of one for both")
     width: Length | None = option(None, "axial width", gt=0.0)
     radial_thickness: Length | None = option(None, "radial thickness", gt=0.0)
     x: Translation = option("free", "axial")

@@ -134,6 +134,13 @@ ARC_CHANNELS: tuple[Channel, ...] = tuple(
     for channel in CHANNELS
     if channel.name in _BY_ARC
 )
+# Where each of two rows has a cage: the body "cage" is that of the first row.
+SECOND_CAGE_CHANNELS: tuple[Channel, ...] = (
+    Channel("second_cage_position", ("axis",), "m", "position of the centre of the second row's cage, inertial frame"),
+    Channel("second_cage_tilt", ("tilt",), "rad", "tilt of the axis of the second row's cage about y and z"),
+    Channel("second_cage_spin_angle", (), "rad", "angle of rotation of the second row's cage about its axis"),
+    Channel("second_cage_spin", (), "rad/s", "angular speed of the second row's cage about its axis"),
+)
 ROLLER_CHANNELS: tuple[Channel, ...] = (
     Channel(
         "roller_lean",

@@ -127,6 +127,7 @@ class Cage:
     width: float  # [m]
     radial_thickness: float  # [m]
     guidance: Literal["ball", "inner ring", "outer ring"]
+    per_row: bool = False  # each of two rows has one; sizes, mass and inertia are those of each
 
 
 @dataclass(frozen=True)

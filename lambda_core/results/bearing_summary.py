@@ -105,6 +105,11 @@ class BearingSummary(Banded):
         "cage_speed_ratio over epicyclic_ratio", label="cage speed over kinematic speed", column="  over epicyclic",
         decimals=4, digits=4, group="cage",
     )  # fmt: skip
+    second_cage_speed_ratio: float | None = quantity(
+        "mean speed of the second row's cage over inner ring speed; null where one cage holds all balls",
+        label="speed of the second row's cage over inner ring speed", column="  second row", decimals=4, digits=4,
+        group="cage", default=None,
+    )  # fmt: skip
     epicyclic_ratio: float | None = quantity(
         "cage speed over inner ring speed without slip: of balls that roll at both raceways at their "
         "contact angles about their own axes, weighted by load",

@@ -1,12 +1,12 @@
-"""Compute the cage speed of balls without slip.
+"""Compute the speeds of cages.
 
-They come from samples of a run and are the reference of cage slip.
+That of balls without slip comes from samples of a run and is the reference of cage slip.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ ROLLING = (
     "load", "contact_angle", "semi_axis_a", "ball_radius", "ball_azimuth", "ball_spin", "ball_velocity",
     "body_position",
 )  # fmt: skip
+SECOND_CAGE = ("second_cage_spin_angle", "body_spin_angle")  # likewise, of the second row's cage
 # y/a of the two lines without slip in a groove: half of Hertz's load lies between them, 3 y/a - (y/a)^3 = 1, so that
 # friction that grows with pressure pulls forwards and backwards alike (Johnson 1985, Contact Mechanics, section 8.5).
 ROLLING_LINE = 2.0 * math.sin(math.radians(10.0))
@@ -46,3 +47,24 @@ def rolling_of(samples: Mapping[str, NDArray[np.float64]], geometry: Mapping[str
         samples["ball_velocity"][..., 2] / radius, diameter,
         approach=apart[..., 1] * np.cos(azimuth) + apart[..., 2] * np.sin(azimuth), rise=rise,
     )  # fmt: skip
+
+
+def second_cage_ratio(blocks: Iterable[Mapping[str, NDArray[np.float64]]]) -> float:
+    """Return the second cage's speed over inner ring speed.
+
+    It is the mean over all samples, relative to the outer ring; NaN without samples.
+
+    Parameters
+    ----------
+    blocks : iterable of mappings
+        SECOND_CAGE, samples block by block.
+    """
+    turned, rings = SECOND_CAGE
+    ends = [
+        np.array([block[turned][row], *block[rings][row, :2]])
+        for block in blocks
+        if block[turned].size
+        for row in (0, -1)
+    ]
+    cage, inner, outer = ends[-1] - ends[0] if ends else (0.0, 0.0, 0.0)
+    return float((cage - outer) / (inner - outer)) if inner != outer else math.nan

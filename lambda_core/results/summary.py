@@ -46,7 +46,7 @@ from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.ring_deformation import ring_deformations
-from lambda_core.results.rolling import ROLLING, rolling_of
+from lambda_core.results.rolling import ROLLING, SECOND_CAGE, rolling_of, second_cage_ratio
 from lambda_core.results.run_status import Status
 
 if TYPE_CHECKING:
@@ -256,9 +256,10 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     start = float(chosen.interval.first[0])
     extremes = _Span.of(result, start)
     epicyclic = extremes.rolling
-    ratio = chosen.interval.ratio("cage_angle", "inner_angle")
+    ratio, pressure = chosen.interval.ratio("cage_angle", "inner_angle"), finite(1e-9 * extremes.pressure)
     end = _sample(result, -1)
     edges = _edges(result)
+    second_cage = result.blocks(SECOND_CAGE, start) if result.model["cage"].get("per_row") else ()
     carrying = end["load"] > CARRYING * end["load"].max()
     revolutions = run_interval.change("relative_angle") / (2.0 * math.pi)
     of_machine: dict[str, Any] = reactions(result, start) if result.is_machine else {}
@@ -275,12 +276,13 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         friction_breakdown_Nmm=merged_cage(chosen.interval.breakdown()),
         cage_speed_ratio=finite(ratio),
         cage_speed_over_epicyclic=finite(ratio / epicyclic),
+        second_cage_speed_ratio=finite(second_cage_ratio(second_cage)),
         epicyclic_ratio=finite(epicyclic),
         contacts=contact_list(end),
         inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
         inner_ring_tilt_mrad=[finite(1e3 * angle) for angle in extremes.tilt],
         bent=ring_deformations(result, start),
-        max_pressure_GPa=finite(1e-9 * extremes.pressure),
+        max_pressure_GPa=pressure,
         min_film_um=finite(1e6 * extremes.film),
         film_um=span(1e6 * end["film_central"][carrying]),
         film_parameter=span(end["film_parameter"][carrying]),
@@ -291,10 +293,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         observed=observed_numbers(result, start),
         events=occurred_events(result),
         verdict=rated_verdict(
-            result.rating,
-            finite(1e-9 * extremes.pressure),
-            span(end["film_parameter"][carrying]),
-            1e3 * extremes.largest_tilt,
+            result.rating, pressure, span(end["film_parameter"][carrying]), 1e3 * extremes.largest_tilt
         ),
         rating=result.rating,
         shoulders=edges,

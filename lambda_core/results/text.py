@@ -75,7 +75,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
             if summary.input_torque_Nmm is not None
             else []
         ),
-        line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", _slip(summary)),
+        line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", *_cages(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
         *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
         line("pressure", f"p_max {shown(summary, 'max_pressure_GPa', units)}"),
@@ -477,11 +477,14 @@ def _tilt(summary: Summary) -> str:
     return f"tilt y {y}  z {z} mrad"
 
 
-def _slip(summary: Summary) -> str:
+def _cages(summary: Summary) -> list[str]:
+    """Return the cage's slip and the second cage's speed."""
     ratio = summary.cage_speed_over_epicyclic
-    if ratio is None:
-        return ""
-    return f"(epicyclic {shown(summary, 'epicyclic_ratio')}, slip {100.0 * (1.0 - ratio):.2f} %)"
+    words = f"epicyclic {shown(summary, 'epicyclic_ratio')}, slip"
+    slip = "" if ratio is None else f"({words} {100.0 * (1.0 - ratio):.2f} %)"
+    if summary.second_cage_speed_ratio is None:
+        return [slip]
+    return [slip, f"second row {shown(summary, 'second_cage_speed_ratio')}"]
 
 
 def _wall(summary: Summary) -> list[str]:

@@ -153,16 +153,32 @@ def resolve_cage(
             shown = show(size, "length", 4), show(limit, "length", 4)
             ledger.problem(f"bodies.cage.{name}", f"{shown[0]} is too large: it must be smaller than {shown[1]}")
             thickness = width = ball
-    mass = material.density * row.fill.value * math.pi * pitch * thickness * width * geometry.rows
-    width += geometry.row_distance
+    mass = material.density * row.fill.value * math.pi * pitch * thickness * width
+    if spec.per_row:
+        _check_cage_per_row(spec, geometry, ledger)
+    else:
+        mass *= geometry.rows
+        width += geometry.row_distance
     if geometry.rows == 2 and is_there:
-        ledger.assume("one cage holds both rows, whose balls stand in turn")
+        ledger.assume(
+            "each row has a cage of its own; both have the same sizes, supports and loads"
+            if spec.per_row
+            else "one cage holds both rows, whose balls stand in turn"
+        )
     inertia = hollow_cylinder(mass, 0.5 * (pitch - thickness), 0.5 * (pitch + thickness), width)
     if guidance not in ("ball", "inner ring", "outer ring"):
         ledger.problem("bodies.cage.type", f'"{row.name}" has the unknown guidance "{guidance}"')
     if is_there:
         _check_cage(geometry, pocket, land, ledger)
-    return Cage(row.name, pocket, land, width, thickness, guidance), inertia  # type: ignore[arg-type]
+    return Cage(row.name, pocket, land, width, thickness, guidance, spec.per_row and is_there), inertia  # type: ignore[arg-type]
+
+
+def _check_cage_per_row(spec: CageBody, geometry: Geometry, ledger: Ledger) -> None:
+    """Refuse cages per row where they cannot be."""
+    if geometry.rows == 1:
+        ledger.problem("bodies.cage.per_row", "is for bearings of two rows; this one has one row: leave it out")
+    if spec.x.stiffness or spec.x.damping:
+        ledger.problem("bodies.cage.x", "of a cage per row is free, locked or a motion; a spring has no rest there")
 
 
 def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) -> None:

@@ -76,6 +76,8 @@ def resolve_elastic(
     if case.elastic.cage is not None:
         if not case.depth.cage:
             ledger.problem("elastic.cage", "contradicts depth.cage = false: there is no cage; leave one of the two out")
+        if cage[0].per_row:
+            ledger.problem("elastic.cage", "is for one cage of all rows; leave out bodies.cage.per_row")
         found["cage"] = _resolve_cage(case.elastic.cage, geometry, *cage, materials["cage"], ledger)
     return found
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, ROLLER_CHANNELS, Channel
+from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, ROLLER_CHANNELS, SECOND_CAGE_CHANNELS, Channel
 from lambda_core.domain.elements import BODIES, RACEWAYS
 from lambda_core.laws.state import ROLE, State
 
@@ -56,6 +56,11 @@ def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
     return tuple(found)
 
 
+def cage_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return the channels of the second row's cage, if any."""
+    return SECOND_CAGE_CHANNELS if model.cage.per_row else ()
+
+
 def element_channels(dim: str, what: str) -> tuple[Channel, ...]:
     """Return the channels of force elements.
 
@@ -74,7 +79,7 @@ def result_channels(model: BearingModel) -> tuple[Channel, ...]:
     Every sample of a run of the model carries them.
     """
     own = arc_channels(model) if model.rollers is None else ROLLER_CHANNELS
-    return (*CHANNELS, *own, *state_channels(model), *wave_channels(model), *_of_elements(model))
+    return (*CHANNELS, *own, *state_channels(model), *wave_channels(model), *cage_channels(model), *_of_elements(model))
 
 
 def _of_elements(model: BearingModel) -> tuple[Channel, ...]:

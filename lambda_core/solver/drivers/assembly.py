@@ -20,6 +20,7 @@ from lambda_core.model.laws.state_channels import states_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.roller_tables import states_of_an_element
+from lambda_core.solver.drivers.row_cages import further_cages
 from lambda_core.solver.drivers.wave_tables import waves_of
 
 GROUND = -1  # number of the ground among the bodies that a link connects
@@ -156,13 +157,16 @@ class Assembly:
         body = len(self.members)
         for bearing in self.bearings:
             model, g = bearing.model, bearing.model.geometry
-            every, waves = raceways(g), len(waves_of(model))
+            every, further = raceways(g), further_cages(model) + len(waves_of(model))
             kept = g.ball_count * sum(len(states_of(model, groove.element)) for groove in every)
-            bodies, end = (*bearing.members, *range(body, body + waves)), begin + states_of_an_element(model) * g.balls
+            bodies, end = (
+                (*bearing.members, *range(body, body + further)),
+                begin + states_of_an_element(model) * g.balls,
+            )
             found.append(BearingSpan(bodies, begin, end, balls, g.balls, rows, grooves, states, kept, lines))
             balls, rows, grooves, states = balls + g.balls, rows + g.rows, grooves + len(every), states + kept
             begin, lines = end, lines + (len(RINGS) if model.rollers is not None else 0)
-            body += waves
+            body += further
         return tuple(found)
 
 
@@ -173,7 +177,7 @@ class BearingSpan:
     Attributes
     ----------
     bodies : tuple of ints
-        Members that carry inner ring, outer ring and cage; then the waves of elastic ones.
+        Members that carry inner ring, outer ring and cage; then a second row's cage and the waves of elastic ones.
     begin, end : int
         Where the states of its balls begin and end in the state vector.
     first_ball, balls, first_row, first_raceway : int

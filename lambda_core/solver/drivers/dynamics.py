@@ -39,6 +39,7 @@ from lambda_core.solver.drivers.readings import (
     Readings,
     Sums,
 )
+from lambda_core.solver.drivers.row_cages import start_cages
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
@@ -472,7 +473,7 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
 
     It is the equilibrium with every ball at the cage's speed.
 
-    The cage stands centred on the balls and turns with them; its pockets are where the balls are. That of a
+    Each cage stands centred on its balls and turns with them; its pockets are where the balls are. That of a
     self-aligning bearing leans with the inner ring, as the rows do.
     """
     context = equilibrium.context
@@ -482,13 +483,10 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
     balls["velocity"][:, 2] = equilibrium.orbit * balls["radius"]
     if model.depth.cage:
         bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
-        shared, cage = bodies.view(np.float64), bodies[CAGE : CAGE + 1]
+        shared = bodies.view(np.float64)
         shared[context.bundle.active] = context.shared_part(y)
-        cage.view(np.float64)[:] = 0.0
-        cage["position"][0, 0] = float(np.mean(balls["x"]))
-        cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
-        if model.geometry.kind.on_sphere:
-            *_, about_y, about_z = equilibrium.displacement
-            cage["tilt"][0] = about_z, -about_y
+        *_, about_y, about_z = equilibrium.displacement
+        leans = (about_z, -about_y) if model.geometry.kind.on_sphere else (0.0, 0.0)
+        start_cages(model, bodies, balls, equilibrium.orbit, leans)
         context.shared_part(y)[:] = shared[context.bundle.active]
     return y

@@ -26,6 +26,7 @@ from lambda_core.solver.drivers.machine_assembly import machine_assembly, member
 from lambda_core.solver.drivers.machine_inputs import MachineInputs, machine_inputs
 from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
+from lambda_core.solver.drivers.row_cages import cages_in, own_bodies, put_cages
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import SIGNS, STATES
@@ -259,14 +260,14 @@ def _start_state(
 
 
 def _place_cage(bodies: np.ndarray, own: np.ndarray, span: BearingSpan, found: Equilibrium, outer: FloatArray) -> None:
-    """Write the states of cage and waves.
+    """Write the states of cages and waves.
 
     The parts are elastic; the states come from the bearing alone.
     """
-    cage = own[CAGE]
-    cage["position"] += outer[:3]
-    bodies[span.bodies[CAGE]] = cage
-    for body, wave, row in zip(span.bodies[CAGE + 1 :], own[CAGE + 1 :], found.context.bundle.waves, strict=True):
+    first = own_bodies(found.context.model)
+    own["position"][CAGE:first] += outer[:3]
+    bodies[list(span.bodies[CAGE:first])] = own[CAGE:first]
+    for body, wave, row in zip(span.bodies[first:], own[first:], found.context.bundle.waves, strict=True):
         # waves stand in the material of their ring, which a lump's unbalance has turned
         turned = float(row["order"] * bodies["angle"][span.bodies[INNER]]) if row["ring"] == INNER else 0.0
         c, s = math.cos(turned), math.sin(turned)
@@ -303,9 +304,11 @@ def _standing(machine: MachineModel, shaft: LumpedShaft, context: SolverContext)
     for outer, bearing in zip(numbers.outer_rings, machine.bearings, strict=True):
         flat[L.NS * outer + RING_STATES] = RING_SIGNS * bearing.seating.shift
         flat.view(R.BODY_STATE)["spin"][outer] = spin_at_start(bearing.model.outer_ring)
-    for cage, bearing in zip(numbers.cages, machine.bearings, strict=True):
-        flat[L.NS * cage + RING_STATES] = RING_SIGNS * _pose(bearing.model.cage_body)
-        flat.view(R.BODY_STATE)["spin"][cage] = spin_at_start(bearing.model.cage_body)
+    put_cages(context.assembly, flat.view(R.BODY_STATE)["position"])
+    for span, bearing in zip(context.assembly.spans(), machine.bearings, strict=True):
+        for cage in cages_in(span.bodies, bearing.model):
+            flat[L.NS * cage + RING_STATES] += RING_SIGNS * _pose(bearing.model.cage_body)
+            flat.view(R.BODY_STATE)["spin"][cage] = spin_at_start(bearing.model.cage_body)
     for number, rigid in zip(numbers.bodies, machine.bodies, strict=True):
         flat[L.NS * number + STATES] = SIGNS * rigid.shift
     return flat

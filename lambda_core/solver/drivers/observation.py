@@ -19,6 +19,7 @@ from lambda_core.solver.drivers.element_forces import element_forces, named_forc
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, loads_of_ribs, losses_by_ring
 from lambda_core.solver.drivers.roller_tables import spin_in_space
+from lambda_core.solver.drivers.row_cages import cage_values
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.drivers.wave_tables import wave_values
@@ -121,6 +122,7 @@ def channels_of(
         channels["rib_load"] = loads_of_ribs(geometry, contacts)
     tails = states[:n, context.size - context.bundle.states.size :]
     channels |= channels_of_states(context.model, tails) | wave_values(everything, context.model)
+    channels |= cage_values(everything, context.model)
     if context.assembly.links:
         wrenches, powers = element_forces(context, times, flat)
         channels |= named_forces("element", wrenches, powers)

@@ -6,6 +6,7 @@ by bearing.
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any, NamedTuple
 
@@ -29,6 +30,7 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, BearingSpan
 from lambda_core.solver.drivers.law_inputs import contacts_of, guides, oil_of, times
 from lambda_core.solver.drivers.roller_tables import states_of_an_element, write_line, write_rib, write_row
+from lambda_core.solver.drivers.row_cages import cages_in, further_cages
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 
@@ -246,8 +248,10 @@ def _bodies(assembly: Assembly) -> Any:
     for i, bearing in enumerate(assembly.bearings):
         cage, waves = plain(bodies)[bearing.members[CAGE]], wave_bodies(bearing.model)
         cage["moves"], cage["is_cage"] = int(bearing.model.depth.cage), 1
+        if bearing.model.cage.per_row and cage["mode"][0] == R.LOCKED:
+            cage["mode"][0] = R.PRESCRIBED  # at the place of its row: what is locked is at 0
         bodies["bearing"][list(bearing.members)] = waves["bearing"] = i
-        found.append(waves)
+        found += [bodies[bearing.members[CAGE:]].repeat(further_cages(bearing.model)), waves]
     return np.concatenate(found)
 
 
@@ -357,17 +361,19 @@ def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _O
     g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
     rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(bearing, guides(model)[0], "cage_contact")
     each, size = len(raceways_of_a_ball(g)), states_of_an_element(model)
+    cages = cages_in(span.bodies, model)
     for i, (record, place) in enumerate(zip(plain(rows), row_places(g), strict=True)):
         record["number"], record["bearing"] = span.first_row + i, number
         record["first_ball"], record["balls"] = span.first_ball + i * g.ball_count, g.ball_count
         record["first_state"], record["size"] = span.begin + i * size * g.ball_count, size
         record["first_raceway"], record["raceways"] = span.first_raceway + i * each, each
-        record["cage"], record["caged"] = span.bodies[CAGE], int(model.depth.cage)
+        record["cage"], record["caged"] = cages[i % len(cages)], int(model.depth.cage)
         record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
         if model.rollers is not None:
             write_row(record, model.rollers, model.cage)
-        record["pocket_circle"], record["pocket_offset"] = 0.5 * g.pitch_diameter, place
-        record["pocket_phase"] = i * math.pi / g.ball_count  # the rows' balls stand in turn
+        record["pocket_circle"] = 0.5 * g.pitch_diameter
+        if len(cages) == 1:
+            record["pocket_offset"], record["pocket_phase"] = place, i * math.pi / g.ball_count  # balls stand in turn
         record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
         record["guide_law"], record["drag_law"] = offsets.guides, offsets.drag
         _oil(record["oil"], bearing.oils[0])
@@ -378,20 +384,19 @@ def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _O
 def _lands(
     bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _Offsets, parameters: _Parameters
 ) -> Any:
-    """Return two stations per ring that guides the cage."""
+    """Return two stations per cage and ring that guides it."""
     model, stations = bearing.model, []
     for ring, element in enumerate(guides(model)[1:]):
         place = parameters.add(bearing, element, "cage_contact")
         if not model.depth.cage or model.laws[element]["cage_contact"].model.name == "none":
             continue
-        for side in (-1, 1):
+        cages = enumerate(cages_in(span.bodies, model))
+        for (row, cage), side in itertools.product(cages, (-1, 1)):
             offset = side * (0.5 * model.cage.width)
             body, facing = span.bodies[(INNER, OUTER)[ring]], (-1.0, 1.0)[ring]
             law, viscosity = offsets.guides + 1 + ring, bearing.oils[0].viscosity
             pair = land_number(number, ring)
-            stations.append(
-                (span.bodies[CAGE], body, span.first_row, pair, law, offset, viscosity, place, facing, (0, 0))
-            )
+            stations.append((cage, body, span.first_row + row, pair, law, offset, viscosity, place, facing, (0, 0)))
     return np.array(stations, R.LAND)
 
 

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import BODIES, CAGE, DOFS
+from lambda_core.domain.elements import CAGE, DOFS
 from lambda_core.model.bearing_model import BearingModel, LawTerm, TableTerm, TimeFunction
 from lambda_core.model.laws.interpolation import curve
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.law_inputs import times
+from lambda_core.solver.drivers.row_cages import cage_places, cages_in, own_bodies
 from lambda_core.solver.drivers.wave_tables import AMPLITUDES, waves_of
 
 _KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE, "law": R.LAW}
@@ -59,18 +60,26 @@ def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
     table: list[float] = []
     laws = [element for bearing in assembly.bearings for element in times(bearing.model)]
     left_out = {bearing.members[CAGE] for bearing in assembly.bearings if not bearing.model.depth.cage}
-    for b, member in enumerate(assembly.members):
+    bodies = [(b, member.body, 0.0) for b, member in enumerate(assembly.members)]
+    for bearing, span in zip(assembly.bearings, assembly.spans(), strict=True):
+        own, places = cages_in(span.bodies, bearing.model), cage_places(bearing.model)
+        body = bodies[own[0]][1]
+        bodies[own[0]] = (own[0], body, places[0])
+        bodies += [(number, body, place) for number, place in zip(own[1:], places[1:], strict=True)]
+        left_out |= set(own[1:]) if own[0] in left_out else set()
+    for b, body, place in bodies:
         if b in left_out:
             continue
-        body = member.body
         for d, name in enumerate(DOFS):
             if body.dofs[name].mode == "prescribed":
                 add_terms(PER_BODY * b + MOTION + d, body.dofs[name].motion, rows, table, laws)
+            if name == "x" and place and body.dofs[name].mode != "free":
+                add_terms(PER_BODY * b + MOTION + d, TimeFunction.constant(place), rows, table, laws)
         for axis in range(3):
             add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table, laws)
             add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table, laws)
     for bearing, span in zip(assembly.bearings, assembly.spans(), strict=True):
-        rows += [_weightless(bearing.model, span.bodies[len(BODIES) :], assembly.gravity)]
+        rows += [_weightless(bearing.model, span.bodies[own_bodies(bearing.model) :], assembly.gravity)]
     return np.concatenate([np.zeros(0, R.TERM), *rows]), np.array(table or [0.0])
 
 

@@ -17,6 +17,7 @@ from lambda_core.formulas.elastic.ring import RingWaves, ovality
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.row_cages import own_bodies
 
 AMPLITUDES = (L.SY, L.SZ)
 _CAGE = list(BODIES).index("cage")
@@ -37,11 +38,11 @@ def wave_rows(model: BearingModel, bodies: Sequence[int]) -> Any:
     Parameters
     ----------
     bodies : sequence of int
-        Numbers of inner ring, outer ring, cage, and of every wave.
+        Numbers of inner ring, outer ring, cages, and of every wave.
     """
     found = waves_of(model)
     rows = np.zeros(len(found), R.WAVE)
-    for row, body, (ring, order, waves) in zip(rows, bodies[len(BODIES) :], found, strict=True):
+    for row, body, (ring, order, waves) in zip(rows, bodies[own_bodies(model) :], found, strict=True):
         row["ring"], row["body"], row["order"], row["coupling"] = bodies[ring], body, order, waves.coupling(order)
     return rows
 
@@ -90,7 +91,7 @@ def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
 
     Every elastic body has shape (n, orders, 2), from states of shape (n, bodies).
     """
-    first, found = len(BODIES), {}
+    first, found = own_bodies(model), {}
     for body, waves in model.elastic.items():
         found[body] = bodies["position"][:, first : first + len(waves.counts), 1:].copy()
         first += len(waves.counts)
