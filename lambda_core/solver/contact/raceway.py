@@ -7,7 +7,7 @@ cell (rheology, traction, temperature), rolling resistance, hysteresis.
 from __future__ import annotations
 
 from lambda_core.solver.contact.resultant import sum_wrench
-from lambda_core.solver.contact.scalar_stages import film_stage, normal_stage
+from lambda_core.solver.contact.scalar_stages import film_stage, normal_stage, rolling_stage
 from lambda_core.solver.contact.shear import shear_stage, slip_field
 from lambda_core.solver.layout import cells_of, grid_of, helper
 from lambda_core.solver.vec import clear
@@ -31,6 +31,8 @@ def pipeline(raceway, first, count, enlarged, laws, par, system, grid_table, blo
             scratch.wrench[k].force[2] = -(scratch.contact[k].load + scratch.contact[k].damping_force)
         return 1
     if film_stage(raceway, first, count, laws, par, scratch) != 1:
+        return 0
+    if rolling_stage(raceway, first, count, laws, par, scratch) != 1:
         return 0
     grid, width = grid_of(grid_table), grid_table.shape[1]
     for k in range(count):

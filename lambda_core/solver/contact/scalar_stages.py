@@ -288,33 +288,37 @@ def _asperities(raceway, first, count, n, laws, par, scratch):
 
 
 @helper
-def _losses(raceway, first, count, n, laws, par, scratch):
-    """Write rolling resistance and hysteresis; 0 on a fault."""
-    ring, where, oil = raceway.number, raceway.parameters, raceway.oil
-    lanes, out, fault = scratch.lanes, scratch.out[:], scratch.fault
-    rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
-    load, a, b = of(lanes.load, first, n), of(lanes.semi_a, first, n), of(lanes.semi_b, first, n)
-    results = of(out, 0, STRIDE * n)
+def rolling_forces(raceway, first, n, laws, par, scratch):
+    """Write rolling resistance into scratch.out; 0 on a fault."""
+    oil, lanes, out = raceway.oil, scratch.lanes, scratch.out[:]
     _blank(out, n, 1)
     status = laws.rolling_resistance(
-        of(lanes.u_mean, first, n), load, a, b, rx, ry, e, oil.viscosity, oil.alpha_p, oil.beta, oil.conductivity,
-        part(par, where.rolling_resistance), results,
+        of(lanes.u_mean, first, n), of(lanes.load, first, n), of(lanes.semi_a, first, n), of(lanes.semi_b, first, n),
+        raceway.radius_x, raceway.radius_y, raceway.modulus, oil.viscosity, oil.alpha_p, oil.beta, oil.conductivity,
+        part(par, raceway.parameters.rolling_resistance), of(out, 0, STRIDE * n),
     )  # fmt: skip
     if status != 1 or not _well(out, n, 1):
         return report(
-            fault, ROLLING_RESISTANCE, status, ring,
+            scratch.fault, ROLLING_RESISTANCE, status, raceway.number,
             lanes.u_mean[first], lanes.load[first], lanes.semi_a[first], lanes.semi_b[first],
         )  # fmt: skip
-    for k in range(count):
-        scratch.contact[first + k].rolling_force *= out[STRIDE * k]
+    return 1
+
+
+@helper
+def _hysteresis(raceway, first, count, n, laws, par, scratch):
+    """Write losses in the solids; 0 on a fault."""
+    lanes, out = scratch.lanes, scratch.out[:]
     _blank(out, n, 1)
     status = laws.elastic_hysteresis(
-        load, a, b, rx, ry, raceway.ball_radius, part(par, where.elastic_hysteresis), results
-    )
+        of(lanes.load, first, n), of(lanes.semi_a, first, n), of(lanes.semi_b, first, n),
+        raceway.radius_x, raceway.radius_y, raceway.ball_radius,
+        part(par, raceway.parameters.elastic_hysteresis), of(out, 0, STRIDE * n),
+    )  # fmt: skip
     if status != 1 or not _well(out, n, 1):
         return report(
-            fault, ELASTIC_HYSTERESIS, status, ring,
-            lanes.load[first], lanes.semi_a[first], lanes.semi_b[first], rx,
+            scratch.fault, ELASTIC_HYSTERESIS, status, raceway.number,
+            lanes.load[first], lanes.semi_a[first], lanes.semi_b[first], raceway.radius_x,
         )  # fmt: skip
     for k in range(count):
         contact = scratch.contact[first + k]
@@ -324,9 +328,9 @@ def _losses(raceway, first, count, n, laws, par, scratch):
 
 @helper
 def film_stage(raceway, first, count, laws, par, scratch):
-    """Compute film, asperity share and rolling losses.
+    """Compute film, asperity share and losses in the solids.
 
-    Film thickness, rolling resistance and hysteresis.
+    The rolling force of contacts is the share of it that heat and supply leave; return 0 on a fault.
     """
     n = _full(count)
     _rolling(first, count, n, scratch)
@@ -334,4 +338,18 @@ def film_stage(raceway, first, count, laws, par, scratch):
         return 0
     if _asperities(raceway, first, count, n, laws, par, scratch) != 1:
         return 0
-    return _losses(raceway, first, count, n, laws, par, scratch)
+    return _hysteresis(raceway, first, count, n, laws, par, scratch)
+
+
+@helper
+def rolling_stage(raceway, first, count, laws, par, scratch):
+    """Multiply the rolling force of points.
+
+    Call it after film_stage; return 0 on a fault.
+    """
+    n = _full(count)
+    if rolling_forces(raceway, first, n, laws, par, scratch) != 1:
+        return 0
+    for k in range(count):
+        scratch.contact[first + k].rolling_force *= scratch.out[STRIDE * k]
+    return 1

@@ -3,9 +3,9 @@
 Loads of slices, then the stages of a point contact with slices as cells.
 
 Slice k, at x_k along the contact, approaches by delta + x_k tilt - drop_k and carries the load that the normal law has
-for it; film, rolling resistance and hysteresis follow from the load spread evenly over the length that carries. Loads
-are those of the contact. Every slice is a cell whose slip is that at its middle, so that skew, spin and the taper's
-sliding are integrated along the line.
+for it; films follow from the load spread evenly over the length that carries, rolling resistance from that of every
+slice. Loads are those of the contact. Every slice is a cell whose slip is that at its middle, so that skew, spin and
+the taper's sliding are integrated along the line.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from lambda_core.solver.arrays.fault_roles import NORMAL_CONTACT
 from lambda_core.solver.cage.guides import GAUSS_NODES, GAUSS_WEIGHTS
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.resultant import sum_wrench
-from lambda_core.solver.contact.scalar_stages import film_stage, line_damping
+from lambda_core.solver.contact.scalar_stages import film_stage, line_damping, rolling_forces
 from lambda_core.solver.contact.shear import shear_stage, slip_field
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, grid_of, helper, of, part, raceway_laws
+from lambda_core.solver.records import BATCH, PLACES
 from lambda_core.solver.vec import clear
 
 PLACE, WIDTH, DROP, RADIUS = range(4)  # rows of Bundle.lines
@@ -101,8 +102,7 @@ def _carrying_length(contact, slices):
 
     A spread load has on it the same integral of the root of its load per length.
 
-    Of profiled rollers under light load a part of the line. Rolling resistance of rigid surfaces goes with that root;
-    where it no longer depends on the load, this is 4 % short of what carries, of a load that rises as an ellipse.
+    Of profiled rollers under light load a part of the line.
     """
     roots = 0.0
     for k in range(slices.shape[1]):
@@ -111,15 +111,57 @@ def _carrying_length(contact, slices):
 
 
 @helper
-def _films(raceway, place, length, laws, par, scratch):
+def _mean_half_width(contact, slices):
+    """Return the half width that the mean newton has [m].
+
+    Losses in the solids are load times half width, slice by slice; those of the widest slice would be too large.
+    """
+    moment = 0.0
+    for k in range(slices.shape[1]):
+        moment += slices[LOAD, k] * slices[WIDTH_ALONG, k]
+    return 0.5 * contact.semi_axis_b * moment / contact.load
+
+
+@helper
+def _rolling_force(raceway, place, contact, laws, par, slices, scratch):
+    """Multiply the rolling force by that of slices.
+
+    It hardly depends on the load of a slice, so that it is no matter of a mean load; return 0 on a fault.
+    """
+    lanes, count, k, total = scratch.lanes, slices.shape[1], 0, 0.0
+    while k < count:
+        n = 0
+        for i in range(BATCH, PLACES):
+            lanes.load[i] = 0.0
+        while k < count and n < BATCH:
+            if slices[LOAD, k] > 0.0:
+                i = BATCH + n
+                lanes.u_mean[i], lanes.load[i] = lanes.u_mean[place], slices[LOAD, k] * count
+                lanes.semi_a[i] = contact.semi_axis_a
+                lanes.semi_b[i] = 0.5 * contact.semi_axis_b * slices[WIDTH_ALONG, k]
+                n += 1
+            k += 1
+        for i in range(BATCH + n, PLACES):
+            lanes.u_mean[i], lanes.semi_a[i], lanes.semi_b[i] = lanes.u_mean[place], contact.semi_axis_a, 0.0
+        if n > 0 and rolling_forces(raceway, BATCH, BATCH if 2 * n > BATCH else BATCH // 2, laws, par, scratch) != 1:
+            return 0
+        for i in range(n):
+            total += scratch.out[STRIDE * i]
+    contact.rolling_force *= total / count
+    return 1
+
+
+@helper
+def _films(raceway, place, length, width, laws, par, scratch):
     """Run the scalar laws of a line.
 
-    The carrying length serves R_y; return 0 on a fault.
+    The carrying length serves R_y, the mean half width the semi-axis along rolling; return 0 on a fault.
     """
-    full = raceway.radius_y
-    raceway.radius_y = length
+    contact = scratch.contact[place]
+    full, widest = raceway.radius_y, contact.semi_axis_b
+    raceway.radius_y, contact.semi_axis_b = length, width
     status = film_stage(raceway, place, 1, laws, par, scratch)
-    raceway.radius_y = full
+    raceway.radius_y, contact.semi_axis_b = full, widest
     return status
 
 
@@ -186,7 +228,9 @@ def line_wrench(raceway, place, bundle):
         return 1
     area = _scale_slices(contact, slices)
     length = _carrying_length(contact, slices)
-    if _films(raceway, place, length, laws, par, scratch) != 1:
+    if _films(raceway, place, length, _mean_half_width(contact, slices), laws, par, scratch) != 1:
+        return 0
+    if _rolling_force(raceway, place, contact, laws, par, slices, scratch) != 1:
         return 0
     grid, cells = grid_of(slices), cells_of(bundle.line_cells, 0, 1, slices.shape[1])
     slip_field(raceway, kin, system, grid, contact, cells)
