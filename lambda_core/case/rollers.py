@@ -6,6 +6,7 @@ from typing import Literal
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.units import Angle, Length, SmallLength
+from lambda_core.elements.roller.slices import SLICES
 
 
 class InlineRollers(Section):
@@ -52,4 +53,10 @@ class InlineRollers(Section):
         None, "scale of the logarithmic profile over the roller diameter", gt=0.0, lt=0.01, reference="Teutsch 2005"
     )
     profile_length: Length | None = option(None, "length of the logarithmic profile", gt=0.0)
-    slices: int = option(40, "laminae of a contact", ge=30, le=200, reference="ISO 16281 asks for 30 and more")
+    slices: int = option(
+        SLICES,
+        "laminae of a contact at an operating point; in motion 32",
+        ge=30,
+        le=200,
+        reference="ISO 16281 asks for 30 and more",
+    )

@@ -335,7 +335,11 @@ DEFAULT_SHAPE_MODELS: dict[str, str] = {"cage_contact": "roller-pocket", "fluid_
 # Roles whose laws serve points and lines alike, but whose default of rollers, on raceways and on ribs, is another one.
 DEFAULT_ROLLER_MODELS: dict[str, str] = {"asperity_load": "zhou-hoeprich"}
 # Roles in which ends of rollers on ribs have other laws than points: they slide, and have no law of rolling.
-DEFAULT_RIB_MODELS: dict[str, str] = {"rolling_resistance": "none", "elastic_hysteresis": "none"}
+DEFAULT_RIB_MODELS: dict[str, str] = {
+    "thermal_correction": "zhu-cheng",
+    "rolling_resistance": "none",
+    "elastic_hysteresis": "none",
+}
 # Laws of the quasi-static friction of rollers: role -> names, the default first, and name in FrictionParameters of each
 # parameter.
 ROLLER_FRICTION: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
@@ -345,10 +349,15 @@ ROLLER_FRICTION: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
         {"thermal_coefficient": "inlet_heat"},
     ),
     "film_thickness": (("moes-line", "dowson-toyoda"), {}),
+    "thermal_correction": (("murch-wilson", "zhu-cheng"), {}),
     "traction": (("ree-eyring",), {"tau_eyring": "eyring_stress", "limit_ratio": "limit_ratio"}),
     "boundary_friction": (("micro-slip",), {"mu": "boundary_friction"}),
     "asperity_load": (("zhou-hoeprich",), {"B": "asperity_scale", "C": "asperity_exponent"}),
     "supply": (("skf-replenishment",), {"k_rs": "replenishment"}),
 }
 # Roles whose laws the quasi-static friction of rollers exchanges: role -> name in FrictionParameters.
-ROLLER_CHOICES = {"rolling_resistance": "rolling_law", "film_thickness": "film_law"}
+ROLLER_CHOICES = {
+    "rolling_resistance": "rolling_law",
+    "film_thickness": "film_law",
+    "thermal_correction": "thermal_law",
+}

@@ -29,11 +29,18 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_fatigue_load_limit,
     roller_static_rating,
 )
-from lambda_core.model.bearing_model import ResolvedValue
+from lambda_core.model.bearing_model import BearingModel, ResolvedValue
 from lambda_core.model.bodies.resolve_elastic import bent_rings
-from lambda_core.model.bodies.resolve_materials import is_grease, lubrication_of, resolve_lubricant, resolve_oil_level
-from lambda_core.model.checks.oil_table import OilLaw, coefficients_of
+from lambda_core.model.bodies.resolve_materials import (
+    is_grease,
+    lubrication_of,
+    materials_apart,
+    resolve_lubricant,
+    resolve_oil_level,
+)
+from lambda_core.model.checks.oil_table import OilLaw, oil_state
 from lambda_core.model.checks.operating_limits import speed_warning
+from lambda_core.model.laws.law_context import effective_modulus
 from lambda_core.model.laws.roller_dielectric import dielectric_of_case
 from lambda_core.model.laws.roller_laws import friction_of_case
 from lambda_core.model.laws.time_functions import initial, time_function
@@ -46,6 +53,7 @@ from lambda_core.model.roller_loads import (
     outer_ring_loads,
     outer_speed,
     outer_support,
+    ring_masses,
 )
 from lambda_core.model.settings.contamination import contamination_of
 
@@ -200,6 +208,15 @@ def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel |
         return _model(case, catalogue, known)
 
 
+def rollers_at_rest(model: BearingModel) -> RollerModel:
+    """Return a moving model as one at rest."""
+    from lambda_core.case.case_io import parse_case
+
+    found = roller_model(parse_case(model.case_toml, model.name))
+    assert found is not None  # the model has rollers from this case
+    return found
+
+
 def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | None:
     bearing, ledger = case.bearing, Ledger(assumptions=list(case.assumptions))
     found = None
@@ -207,7 +224,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
     if found is None and bearing.rollers is None and not ledger.problems:
         return None
-    geometry = roller_geometry(case, found, ledger)
+    geometry = roller_geometry(case, found, catalogue, ledger)
     row, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
     state, dielectric = None, None
     if row is not None and oil is not None:
@@ -216,7 +233,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         else:
             law = ledger.ask("lubricant.name", lambda: OilLaw(row, known))
             if law is not None:
-                state = _oil(law, case.lubricant.temperature, oil.thermal_conductivity)
+                state = oil_state(law, case.lubricant.temperature, oil.thermal_conductivity)
             if law is not None and geometry is not None:
                 density = partial(law.density, temperature=oil.temperature)
                 dielectric = dielectric_of_case(case, row, oil, density, geometry, known, ledger)
@@ -224,8 +241,8 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held, written = held_directions(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
-    loads = inner_loads(case, ledger)
-    support, outer_loads = outer_support(case), outer_ring_loads(case, ledger)
+    masses = ring_masses(case, geometry, catalogue) if geometry else (0.0, 0.0)
+    loads, support, outer_loads = inner_loads(case, masses[0]), outer_support(case), outer_ring_loads(case, masses[1])
     held, loose = as_outer_ring(case, held, loads, outer_loads)
     if support is not None:
         loads = np.where(np.array(held) & np.isfinite(support), -outer_loads, loads)
@@ -286,8 +303,10 @@ def roller_title(case: Case, found: RollerDesignation | None, geometry: RollerBe
     return f"{found.row.designation} ({found.row.maker}{edited})"
 
 
-def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger) -> RollerBearing | None:
-    """Return the geometry.
+def roller_geometry(
+    case: Case, found: RollerDesignation | None, catalogue: Catalogue, ledger: Ledger
+) -> RollerBearing | None:
+    """Return geometry and materials.
 
     The case's values come first, then the catalogue's; None follows a problem.
     """
@@ -318,6 +337,8 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
         "contact_angle": number["contact_angle"],
     }
     dynamic, static, limit = _ratings(case, row, shape, ledger)
+    materials = materials_apart(("inner", "outer", "balls"), case, catalogue, ledger)
+    inner, outer, roller = (materials[part] for part in ("inner", "outer", "balls"))
     try:
         return RollerBearing(
             kind=kind,
@@ -342,6 +363,8 @@ def roller_geometry(case: Case, found: RollerDesignation | None, ledger: Ledger)
             series=row.series if row else "",
             limiting_speed=row.limiting_speed.value if row and row.limiting_speed else None,
             caged=case.depth.cage,
+            moduli=(effective_modulus(roller, inner), effective_modulus(roller, outer)),
+            density=roller.density,
             **_profile(rollers, row, number["roller_diameter"], ledger),
         )
     except ValueError as error:
@@ -468,16 +491,3 @@ def _limits(bore: float, text: str) -> tuple[float, float]:
         return roller_clearance(bore, text)
     except ValueError as error:
         raise LambdaError(str(error)) from None
-
-
-def _oil(law: OilLaw, temperature: float, conductivity: float) -> OilState:
-    """Return the oil at a temperature [K] and ambient pressure."""
-    point, density = law.state(0.0, temperature)
-    found = coefficients_of(law, temperature)
-    return OilState(
-        viscosity=math.exp(point),
-        density=density,
-        pressure_viscosity=1e-9 * found.alpha_tangent_per_GPa,
-        temperature_slope=found.beta_per_K,
-        conductivity=conductivity,
-    )

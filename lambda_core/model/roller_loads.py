@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
 from lambda_core.case.case import Case
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
+from lambda_core.formulas.loading import Ring
+from lambda_core.model.bodies.resolve_bodies import ring_inertia
+from lambda_core.model.bodies.resolve_materials import materials_apart
+from lambda_core.model.geometry.resolve_geometry import resolve_geometry
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
     from lambda_core.case.motion import RingBody
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.elements.roller.roller_bearing import RollerBearing
 
 STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
 Held = tuple[bool, bool, bool, bool, bool]
@@ -27,10 +33,29 @@ def outer_speed(case: Case) -> float:
     return 0.0 if motion is None else initial(time_function(motion))
 
 
-def inner_loads(case: Case, ledger: Ledger) -> FloatArray:
+def ring_masses(case: Case, rollers: RollerBearing, catalogue: Catalogue) -> tuple[float, float]:
+    """Return the masses of inner and outer ring [kg].
+
+    They are those of motion: given, or of rings for as many balls; the shaft counts to the inner one.
+    """
+    from lambda_core.model.rollers_in_motion import as_balls  # which resolves loads at rest itself
+
+    ledger, given = Ledger(), {"inner": case.bodies.inner_ring, "outer": case.bodies.outer_ring}
+    materials = materials_apart(get_args(Ring), case, catalogue, ledger)
+    found = resolve_geometry(as_balls(case, rollers).bearing, None, catalogue, ledger)
+    masses = [given[ring].mass for ring in get_args(Ring)]
+    if found is not None:  # else a problem says what is missing
+        masses = [
+            ring_inertia(found[0], ring, materials[ring].density).mass if mass is None else mass
+            for ring, mass in zip(get_args(Ring), masses, strict=True)
+        ]
+    return (masses[0] or 0.0) + case.bodies.inner_ring.shaft_mass, masses[1] or 0.0
+
+
+def inner_loads(case: Case, mass: float) -> FloatArray:
     """Return the loads at t = 0, (5,).
 
-    They act on the inner ring. Its weight counts where the case gives its mass, and that of the shaft.
+    They act on the inner ring; the weight is that of its `mass` [kg] with the shaft.
     """
     loads = case.loads
     numbers = {
@@ -48,11 +73,11 @@ def inner_loads(case: Case, ledger: Ledger) -> FloatArray:
     )
     if loads.inner_ring is not None:
         found += [initial(time_function(getattr(loads.inner_ring, name))) for name in _FORCES]
-    ring, gravity = case.bodies.inner_ring, np.array([case.gravity.x, case.gravity.y, case.gravity.z])
-    if ring.mass is None and gravity.any():
-        ledger.assume("the weight of the inner ring is left out: the case gives no mass of it")
-    found[:3] += ((ring.mass or 0.0) + ring.shaft_mass) * gravity
-    return found
+    return found + _weight(case, mass)
+
+
+def _weight(case: Case, mass: float) -> FloatArray:
+    return mass * np.array([case.gravity.x, case.gravity.y, case.gravity.z, 0.0, 0.0])
 
 
 def held_directions(case: Case, ledger: Ledger) -> Held:
@@ -104,16 +129,12 @@ def outer_support(case: Case) -> FloatArray | None:
     return None if all(math.isinf(one) for one in found) else np.array(found)
 
 
-def outer_ring_loads(case: Case, ledger: Ledger) -> FloatArray:
+def outer_ring_loads(case: Case, mass: float) -> FloatArray:
     """Return the loads on the outer ring [N, N m].
 
-    They are those at t = 0, (5,). Its weight counts where the case gives its mass.
+    They are those at t = 0, (5,), with the weight of its `mass` [kg].
     """
-    found, ring = np.zeros(len(POSE)), case.bodies.outer_ring
+    found = np.zeros(len(POSE))
     if case.loads.outer_ring is not None:
         found += [initial(time_function(getattr(case.loads.outer_ring, name))) for name in _FORCES]
-    gravity = np.array([case.gravity.x, case.gravity.y, case.gravity.z])
-    if ring.mass is None and gravity.any() and outer_support(case) is not None:
-        ledger.assume("the weight of the outer ring is left out: the case gives no mass of it")
-    found[:3] += (ring.mass or 0.0) * gravity
-    return found
+    return found + _weight(case, mass)

@@ -72,7 +72,7 @@ def rollers_of(
         found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
     if found is None and bearing.rollers is None:
         return None
-    rollers = roller_geometry(case, found, ledger)
+    rollers = roller_geometry(case, found, catalogue, ledger)
     if rollers is not None:
         if place is str:
             _refuse_thrust(case, rollers, ledger)

@@ -31,17 +31,19 @@ from lambda_core.formulas.life import (
 from lambda_core.formulas.loading import CARRYING, Ring, carries
 from lambda_core.model.bodies.resolve_elastic import waves_of_rings
 from lambda_core.model.checks.loose_rings import loose_sentence
-from lambda_core.model.checks.operating_limits import unbacked
+from lambda_core.model.checks.operating_limits import operating_warnings, unbacked
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import Contact
 from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
 from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
-from lambda_core.results.rating import Rating
+from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.ring_shape import ring_shape
 from lambda_core.results.summary import capacitance_note
+from lambda_core.results.verdict import limits_of
 
 if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.roller_case import RollerModel
 
 _RPM = 30.0 / math.pi
@@ -117,20 +119,26 @@ def with_friction(model: RollerModel, solved: SolvedRollers) -> SolvedRollers:
     return replace(found, electric=tuple(electric))
 
 
-def roller_quasistatic(model: RollerModel) -> QuasiStatic:
-    """Solve a roller bearing.
+def roller_quasistatic(model: RollerModel, moving: BearingModel | None = None) -> QuasiStatic:
+    """Solve a roller bearing that is alone.
 
-    The answer has the units of the interface. The errors are those of :func:`solve_rollers`.
+    The answer has the units of the interface; it is what a run of `moving` starts from in words. The errors are those
+    of :func:`solve_rollers`.
+
+    Parameters
+    ----------
+    moving : BearingModel, optional
+        Its model in motion, which knows limits.
     """
-    return roller_answer(model, solve_rollers(model))
+    return roller_answer(model, solve_rollers(model), moving)
 
 
-def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
+def roller_answer(model: RollerModel, solved: SolvedRollers, moving: BearingModel | None = None) -> QuasiStatic:
     """Put a solution of a bearing alone into interface units."""
     state, bearing = solved.state, model.bearing
     x, y, z, tilt_y, tilt_z = (state.ring + model.outer_displacement(state.loads)).tolist()
     return QuasiStatic(
-        **roller_statics(model, solved),
+        **roller_statics(model, solved, moving),
         case=model.name,
         headline=headline_of(model, *state.carried),
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
@@ -141,30 +149,39 @@ def roller_answer(model: RollerModel, solved: SolvedRollers) -> QuasiStatic:
     ).of_model(model)
 
 
-def roller_statics(model: RollerModel, solved: SolvedRollers) -> dict[str, Any]:
+def roller_statics(
+    model: RollerModel, solved: SolvedRollers, moving: BearingModel | None = None, *, on_shaft: bool = False
+) -> dict[str, Any]:
     """Return the fields of :class:`BearingStatics` of rollers.
 
-    They have no verdict: it needs limits, which the model of rollers alone does not have.
+    The verdict needs limits, which the model `moving` in time has.
     """
     bearing, state, motion, turning = model.bearing, solved.state, solved.motion, solved.friction is not None
     found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
-    loads = {"inner": state.inner, "outer": state.outer}  # of every slice; light ones at the ends float on thick films
-    films = [film[np.isfinite(film) & carries(loads[ring])] for ring, film in found.film.items()]
+    loads = {"inner": state.inner, "outer": state.outer}
+    films = [film[carries(loads[ring].sum(axis=1))] for ring, film in found.contact_film.items()]
     carrying = np.concatenate(films) if turning else np.zeros(0)
     radial, axial = state.carried
     limit = _limit(model, radial, motion)
     least = finite(min(found.film_parameter.values(), default=math.nan))
     inner, outer = (float(load.sum(axis=1).max()) for load in loads.values())
+    pressure = 1e-9 * max(_pressure(bearing, one) for one in solved.states)
+    rating = roller_rating(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination)
+    told = _warnings(model, state, axial, limit)
+    if moving is not None:
+        rating = rating.model_copy(update={"limits": limits_of(moving)})
+        told = list(dict.fromkeys([*told, *operating_warnings(moving, on_shaft=on_shaft)]))
     return {
         "title": model.title,
         "loaded_balls": int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
         "max_load_N": max(_largest(one) for one in solved.states),
         "max_load_ring": "inner" if inner > outer else "outer",
-        "max_pressure_GPa": 1e-9 * max(_pressure(bearing, one, model) for one in solved.states),
+        "max_pressure_GPa": pressure,
         "contact_angle_deg": [math.degrees(bearing.angles.inner), math.degrees(bearing.angles.outer)],
-        "rating": roller_rating(
-            bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination
+        "rating": rating,
+        "verdict": rated_verdict(
+            rating, pressure, [] if least is None else [least], 1e3 * float(np.hypot(*state.ring[3:]))
         ),
         "friction_torque_Nmm": 1e3 * found.total if turning else None,
         "friction_breakdown_Nmm": _parts(found) if turning else {},
@@ -180,7 +197,7 @@ def roller_statics(model: RollerModel, solved: SolvedRollers) -> dict[str, Any]:
         "shoulders": [],
         "contacts": _contacts(bearing, solved),
         "rollers": _of_rollers(bearing, solved, found, limit),
-        "warnings": _warnings(model, state, axial, limit),
+        "warnings": told,
     }
 
 
@@ -206,10 +223,7 @@ def _of_rollers(
 
 
 def _contacts(bearing: RollerBearing, solved: SolvedRollers) -> list[Contact]:
-    """Return every contact of a roller with a raceway.
-
-    Each has the film of the slice that carries most.
-    """
+    """Return every contact of a roller with a raceway."""
     state, found, angles = solved.state, solved.friction, bearing.angles
     loads = {"inner": state.inner, "outer": state.outer}
     leans = {"inner": angles.inner, "outer": angles.outer}
@@ -220,7 +234,7 @@ def _contacts(bearing: RollerBearing, solved: SolvedRollers) -> list[Contact]:
             azimuth_deg=math.degrees(float(azimuth)) % 360.0,
             load_N=float(loads[ring][j].sum()),
             contact_angle_deg=math.degrees(bearing.faces * leans[ring]),
-            film_um=_film(found, ring, j, loads[ring][j]),
+            film_um=None if found is None else finite(1e6 * float(found.contact_film[ring][j])),
             capacitance_pF=finite(1e12 * float(solved.electric[0].contacts[j, k])) if solved.electric else None,
         )
         for j, azimuth in enumerate(state.azimuths)
@@ -242,12 +256,6 @@ def _note(state: RollerEquilibrium, solved: SolvedRollers) -> str:
         return ""
     loads = np.column_stack([state.inner.sum(axis=1), state.outer.sum(axis=1)])
     return capacitance_note(loads, solved.electric[0].contacts, "roller")
-
-
-def _film(found: RollerFriction | None, ring: str, roller: int, loads: FloatArray) -> float | None:
-    if found is None or float(loads.max()) <= 0.0:
-        return None
-    return 1e6 * float(found.film[ring][roller, int(np.argmax(loads))])
 
 
 def headline_of(model: RollerModel, radial: float, axial: float) -> str:
@@ -278,15 +286,14 @@ def _largest(state: RollerEquilibrium) -> float:
     return float(max(state.inner.sum(axis=1).max(), state.outer.sum(axis=1).max()))
 
 
-def _pressure(bearing: RollerBearing, state: RollerEquilibrium, model: RollerModel) -> float:
+def _pressure(bearing: RollerBearing, state: RollerEquilibrium) -> float:
     """Return the largest raceway pressure [Pa], also at rest."""
     from lambda_core.elements.roller.line_contact import peak_pressure
 
-    width = bearing.effective_length / model.slices
-    loads = (("inner", state.inner), ("outer", state.outer))
+    width = bearing.effective_length / state.inner.shape[1]
+    loads: tuple[tuple[Ring, FloatArray], ...] = (("inner", state.inner), ("outer", state.outer))
     return max(
-        float(peak_pressure(load.max() / width, bearing.radius(ring), model.friction.e_eff))  # type: ignore[arg-type]
-        for ring, load in loads
+        float(peak_pressure(load.max() / width, bearing.radius(ring), bearing.modulus(ring))) for ring, load in loads
     )
 
 
@@ -396,7 +403,7 @@ def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoa
 def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit: AxialLimit | None) -> list[str]:
     """Return what is beyond a limit."""
     found = model.warnings
-    pressure = _pressure(model.bearing, state, model)
+    pressure = _pressure(model.bearing, state)
     if pressure > HIGHEST_ROLLER_PRESSURE:
         found.append(f"contact pressure {1e-9 * pressure:.3g} GPa is above the 4 GPa of the static rating (ISO 76)")
     if limit is not None and axial > limit.continuous:

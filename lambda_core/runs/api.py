@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -100,21 +101,16 @@ def _roller_answer(
 
     Bearings that do not run in time have no band and no warnings of limits in motion.
     """
-    from lambda_core.model.checks.operating_limits import operating_warnings
     from lambda_core.results.roller_quasistatic import roller_quasistatic
 
     found = ready_rollers(source, overrides, announce)
     if found is None:
         return None
     model, warm = found
-    answer = roller_quasistatic(model)
-    try:
+    with suppress(CaseError):  # else it does not run in time
         warm = warm or ready_model(source, overrides, is_static=True)
-    except CaseError:
-        return answer
-    told = list(dict.fromkeys([*answer.warnings, *operating_warnings(warm)]))
-    answer = answer.model_copy(update={"warnings": told})
-    if not band:
+    answer = roller_quasistatic(model, warm)
+    if warm is None or not band:
         return answer
     from lambda_core.analysis.band.model_band import bands_or_reason
 

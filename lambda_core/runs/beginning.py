@@ -14,8 +14,10 @@ import numpy as np
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.discovery.api import registry
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
+from lambda_core.model.roller_case import rollers_at_rest
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.roller_quasistatic import roller_quasistatic
 from lambda_core.runs.law_blame import naming_laws
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import MotionEngine, MotionStart, bearing_start
@@ -92,7 +94,7 @@ class BegunBearing:
 
     def sentence(self) -> str:
         """Return a sentence about the equilibrium."""
-        found = quasistatic_of(self.equilibria[0])
+        found = quasistatic_of(self.equilibria[0]) if self.model.rollers is None else self.answer()
         return (
             f"equilibrium: {found.loaded_balls} {self.model.elements} loaded, "
             f"Q_max {found.max_load_N / 1e3:.2f} kN ({found.max_load_ring} ring), "
@@ -102,10 +104,12 @@ class BegunBearing:
     def provenance(self, engine: MotionEngine) -> Provenance:
         """Return the fixed part of a result from here."""
         keys = engine.context.kernels.keys()
-        return Provenance.alone(self.model, keys, rating_of(self.equilibria[0], registry().methods))
+        return Provenance.alone(self.model, keys, self.answer().rating)
 
     def answer(self) -> QuasiStatic:
         """Return the equilibrium in the words of the interface."""
+        if self.model.rollers is not None:
+            return roller_quasistatic(rollers_at_rest(self.model), self.model)
         found = self.equilibria[0]
         return quasistatic_of(found, rating_of(found, registry().methods))
 

@@ -62,9 +62,8 @@ def compare(
         With a sentence about the case, or about why there is no equilibrium.
     """
     from lambda_core.analysis.rating.compare_methods import compare as ask
-    from lambda_core.case.case_io import is_machine, parse_case, refuse_bearing
+    from lambda_core.case.case_io import is_machine, refuse_bearing
     from lambda_core.discovery.api import registry
-    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.results.reader import Result
     from lambda_core.results.roller_quasistatic import solve_rollers
     from lambda_core.runs.compare_rollers import compare_rollers
@@ -88,8 +87,6 @@ def compare(
             )
         return _compare_in_machine(source, overrides, bearing, (chosen, of_rollers), contamination, announce)
     refuse_bearing(bearing)
-    if isinstance(source, BearingModel) and source.rollers is not None:
-        source = parse_case(source.case_toml, source.name)  # methods for rollers need the case itself
     found = ready_rollers(source, overrides, announce)
     simulated = result if result is None or isinstance(result, Result) else Result(result)
     if found is not None:

@@ -71,7 +71,7 @@ def test_the_quasi_static_contact_is_flats_of_slices_and_the_gaps_at_their_sides
     carried = solved.state.inner[0] > 0.0
     loads, films = solved.state.inner[0][carried], solved.friction.film["inner"][0][carried]
     width, radius = model.bearing.effective_length / carried.size, model.bearing.radius("inner")
-    half = np.sqrt(8.0 * loads / width * radius / (math.pi * model.friction.e_eff))
+    half = np.sqrt(8.0 * loads / width * radius / (math.pi * model.bearing.modulus("inner")))
     oil = VACUUM_PERMITTIVITY * PERMITTIVITY
     flats = oil * float(np.sum(2.0 * half * width / films))
     film = float(np.sum(half) / np.sum(half / films))

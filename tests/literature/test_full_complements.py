@@ -19,6 +19,7 @@ from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_friction import friction
 from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.elements.roller.slices import SLICES
 from lambda_core.plugins import RollerMethodInputs
 
 from .published import Published
@@ -54,7 +55,7 @@ BEARINGS = {
 LOADS = {"NU 208": 5e3, "NU 2208": 5e3, "NCF 3008": 5e3, "NA 4905": 2e3}
 
 
-def exact_loads(bearing: RollerBearing, radial: float, laminae: int = 40) -> FloatArray:
+def exact_loads(bearing: RollerBearing, radial: float, laminae: int = SLICES) -> FloatArray:
     """Return the loads of the rollers by ISO 16281 [N].
 
     q_jk = (35948 L_we^(8/9)/n_s) max(d_r cos(phi_j) - s/2 - 2 P(x_k), 0)^(10/9) (mm, N), the sum of q_jk cos(phi_j)

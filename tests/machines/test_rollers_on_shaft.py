@@ -17,7 +17,6 @@ from lambda_core import api
 from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
 from lambda_core.domain.errors import CaseError, SolverError
 from lambda_core.elements.roller.roller_equilibrium import balance
-from lambda_core.model.laws.law_context import build_context
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
@@ -35,7 +34,6 @@ SHARED: dict[str, Any] = {
     "gravity": {"z": "0 m/s2"},
 }
 MOTOR = Path(__file__).parents[2] / "examples" / "roller-shafts" / "motor.toml"
-STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' behind the constant of ISO 16281 [Pa]
 THICK = {"sections": [{"length": "60 mm", "diameter": "400 mm"}]}  # hardly bends, hardly presses together
 
 KERNELS = SharedKernels()
@@ -230,13 +228,12 @@ def test_a_cone_that_faces_the_other_way_is_the_mirror_image() -> None:
 def test_the_compiled_contacts_answer_the_same() -> None:
     """Compare compiled contacts with `iso-line`.
 
-    Both follow ISO 16281, the law in proportion to E'; 0.5 % for slices.
+    Both follow ISO 16281 in proportion to E' of the case; 0.2 % for places that count to first order.
     """
     ring = of("SKF NU 208 ECP")
     kernels = BearingReaction(ring.model, 0.0, 1000.0, KERNELS.of(ring.model))
-    softer = STEEL / build_context(ring.model, "ball_inner", ring.frame, ring.oil).e_eff
     for pose in ((0.0, 0.0, -40e-6, 0.0, 0.0), (0.0, 10e-6, -40e-6, 3e-4, 0.0)):
-        assert softer * kernels.reaction(pose)[1:3] == pytest.approx(ring.reaction(pose)[1:3], rel=5e-3, abs=1.0)
+        assert kernels.reaction(pose)[1:3] == pytest.approx(ring.reaction(pose)[1:3], rel=2e-3, abs=1.0)
 
 
 def test_a_preload_makes_the_force_that_presses_a_bearing_as_far() -> None:

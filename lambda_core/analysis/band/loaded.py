@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from lambda_core.model.bearing_model import BearingModel
+from lambda_core.model.roller_case import rollers_at_rest
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def loaded_bearings(
     equilibrium.
     """
     if isinstance(model, BearingModel):
-        return {"": LoadedBearing(model, None if model.rollers is None else _rollers(model))}
+        return {"": LoadedBearing(model, None if model.rollers is None else rollers_at_rest(model))}
     from lambda_core.solver.drivers.machine_statics import solve_machine
 
     return loaded_in(model, solve_machine(model, announce))
@@ -55,12 +56,3 @@ def loaded_in(machine: MachineModel, state: MachineState) -> dict[str, LoadedBea
         else LoadedBearing(alone_under_load(machine, state, i), None)
         for i, (mounted, ring) in enumerate(zip(machine.bearings, state.rings, strict=True))
     }
-
-
-def _rollers(model: BearingModel) -> RollerModel:
-    from lambda_core.case.case_io import parse_case
-    from lambda_core.model.roller_case import roller_model
-
-    rollers = roller_model(parse_case(model.case_toml, model.name))
-    assert rollers is not None  # the model has them from this case
-    return rollers

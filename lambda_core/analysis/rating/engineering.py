@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lambda_core.analysis.rating.compare_methods import comparison_inputs, equilibrium_state
+from lambda_core.domain.elements import SPIN
 from lambda_core.model.laws.method_inputs import bearing_load
+from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import limits_of
+from lambda_core.solver.arrays.bundle import elements_in
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.solver.drivers.roller_reaction import RollerReaction
+from lambda_core.solver.drivers.roller_reaction import RollerReaction, rollers_between
 from lambda_core.views.method import Method, evaluate_methods
 
 if TYPE_CHECKING:
@@ -99,26 +102,17 @@ def mounted_rating(model: MachineModel, state: MachineState, number: int, found:
 def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
     """Rate rollers as their quasi-static answer does.
 
-    They are tilted as in the equilibrium.
+    They stand between the rings, at the places that these have in the equilibrium.
     """
-    from lambda_core.elements.roller.roller_equilibrium import balance
     from lambda_core.elements.roller.roller_motion import rolling_motion
     from lambda_core.results.roller_quasistatic import roller_rating
 
     model, oil = found.context.model, found.context.oil
     radial, axial = bearing_load(model, equilibrium_state(found))
-    _, y, z, *tilts = found.displacement
-    way = math.atan2(z, y)
-    loads = np.array([0.0, radial * math.cos(way), radial * math.sin(way), 0.0, 0.0])
-    motion = rolling_motion(rollers, found.relative_speed)
+    inner, outer = (initial(body.dofs[SPIN].motion) for body in (model.inner_ring, model.outer_ring))
+    azimuth = float(elements_in(found.context.bundle, found.state)["azimuth"][0])
     try:
-        state = balance(
-            rollers,
-            loads,
-            held=(True, False, False, True, True),
-            displacement=np.array([0.0, 0.0, 0.0, *tilts]),
-            inertial=motion.inertial(rollers),
-        )
+        state = rollers_between(rollers, rolling_motion(rollers, inner, outer), found.pose, azimuth)
     except (ValueError, ArithmeticError) as error:
         return Rating(limits=limits_of(model), notes=[f"rating lives: {error}"])
     rating = roller_rating(

@@ -27,7 +27,7 @@ from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import ModelBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
 from lambda_core.results.quasistatic import BearingStatics, StaticAnswer, bearing_statics
-from lambda_core.results.rating import Rating, rated_verdict
+from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.verdict import Verdict
@@ -326,9 +326,6 @@ def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerR
     """Return the numbers of a bearing with rollers."""
     bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
     own = rollers_on_shaft(ring).statics
-    tilt = 1e3 * float(np.hypot(*pose[3:]))
-    own["verdict"] = rated_verdict(own["rating"], own["max_pressure_GPa"], own["film_parameter"], tilt)
-    own["warnings"] = list(dict.fromkeys([*own["warnings"], *operating_warnings(bearing.model, on_shaft=True)]))
     clearance = None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance
     own["title"] = bearing.model.title
     return BearingEquilibrium(**own, **_in_machine(bearing, state, index, pose, reaction), clearance_um=clearance)

@@ -14,7 +14,6 @@ from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
 from lambda_core.results.rating import Rating
 from lambda_core.results.roller_quasistatic import SolvedRollers, roller_statics, solve_rollers
-from lambda_core.results.verdict import limits_of
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 
@@ -50,9 +49,7 @@ def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
     """
     model, alone = ring.model, taken_out(ring)
     solved = solve_rollers(alone)
-    own = roller_statics(alone, solved)
-    own["rating"] = own["rating"].model_copy(update={"limits": limits_of(model)})
-    return RollersOnShaft(alone, solved, own)
+    return RollersOnShaft(alone, solved, roller_statics(alone, solved, model, on_shaft=True))
 
 
 def taken_out(ring: RollerReaction) -> RollerModel:

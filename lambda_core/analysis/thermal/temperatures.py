@@ -142,19 +142,20 @@ def ready_rollers(
     CaseError, SolverError
         With a sentence about the case, or about why there are no steady temperatures.
     """
-    from lambda_core.case.case_io import load_case, parse_case
+    from lambda_core.case.case_io import load_case
     from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.roller_case import roller_model
+    from lambda_core.model.roller_case import roller_model, rollers_at_rest
 
     if isinstance(source, BearingModel):
-        return None
+        if source.rollers is None:
+            return None
+        warm = ready_model(source, overrides, announce, is_static=True)
+        return rollers_at_rest(warm), warm
     rollers = roller_model(source, overrides)  # type: ignore[arg-type]
     if rollers is None or load_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
         return None if rollers is None else (rollers, None)
     warm = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
-    rollers = roller_model(parse_case(warm.case_toml, warm.name))
-    assert rollers is not None
-    return rollers, warm
+    return rollers_at_rest(warm), warm
 
 
 def run_of(source: object) -> Result | None:

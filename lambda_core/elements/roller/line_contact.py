@@ -16,6 +16,7 @@ from lambda_core.domain.arrays import FloatArray
 # ISO 16281:2025: c_L = 35948 L_we^(8/9) N/mm^(10/9), steel rollers between two steel raceways.
 ISO_CONSTANT = 35948.0
 ISO_EXPONENT = 10.0 / 9.0
+STEEL_MODULUS = 206e9 / (1.0 - 0.3**2)  # E' of the steel bodies behind that constant [Pa]
 _MM = 1e3  # millimetres in a metre
 
 # A strip of even pressure with this share of Hertz's half width has the semi-ellipse's mean of ln|s| across rolling,

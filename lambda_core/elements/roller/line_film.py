@@ -127,6 +127,18 @@ def inlet_heat_film(
     return found
 
 
+def inlet_heat_rolling_film(
+    speed: FloatArray | float, viscosity: float, temperature_slope: float, conductivity: float
+) -> FloatArray:
+    """Return the factor of inlet heating in pure rolling [-].
+
+    3.94/(3.94 + L^0.62), L = eta beta u^2/k: Murch and Wilson 1975, J. Lubr. Technol. 97, 212, for line contacts that
+    roll. Arguments as for :func:`inlet_heat_film`.
+    """
+    found: FloatArray = 3.94 / (3.94 + (viscosity * temperature_slope * np.asarray(speed) ** 2 / conductivity) ** 0.62)
+    return found
+
+
 def inlet_heat_rolling(
     speed: FloatArray | float, viscosity: float, temperature_slope: float, conductivity: float, factor: float = 0.29
 ) -> FloatArray:

@@ -18,6 +18,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.elements.roller import profiles
+from lambda_core.elements.roller.line_contact import STEEL_MODULUS
 from lambda_core.elements.roller.rib import RibContact, TaperedAngles, rib_contact, tapered_angles
 from lambda_core.elements.roller.slices import slice_positions
 from lambda_core.formulas.elastic.ring import RingWaves
@@ -123,6 +124,10 @@ class RollerBearing:
         Whether a cage keeps the rollers apart, where the kind has one.
     inner_waves, outer_waves : RingWaves or None
         How the rings bend; None: they are rigid.
+    moduli : tuple of float
+        E' of the rollers with the inner and with the outer ring [Pa]; default: the steel behind ISO 16281.
+    density : float
+        Of the rollers [kg/m3].
     """
 
     kind: str
@@ -154,6 +159,8 @@ class RollerBearing:
     caged: bool = True
     inner_waves: RingWaves | None = None
     outer_waves: RingWaves | None = None
+    moduli: tuple[float, float] = (STEEL_MODULUS, STEEL_MODULUS)
+    density: float = 7850.0
 
     def __post_init__(self) -> None:
         """Refuse what cannot be built.
@@ -217,8 +224,8 @@ class RollerBearing:
 
     @property
     def mass(self) -> float:
-        """Mass of a steel roller [kg], 7850 kg/m3."""
-        return 7850.0 * 0.25 * math.pi * self.diameter**2 * self.length
+        """Mass of a roller [kg]."""
+        return self.density * 0.25 * math.pi * self.diameter**2 * self.length
 
     @property
     def inertias(self) -> tuple[float, float]:
@@ -227,6 +234,10 @@ class RollerBearing:
         Polar and transverse, of a cylinder of its mean diameter.
         """
         return self.mass * self.diameter**2 / 8.0, self.mass * (self.diameter**2 / 16.0 + self.length**2 / 12.0)
+
+    def modulus(self, ring: Ring) -> float:
+        """Return E' of the rollers with a ring [Pa]."""
+        return self.moduli[0 if ring == "inner" else 1]
 
     def radius(self, ring: Ring) -> float:
         """Return the reduced radius of a raceway contact [m].

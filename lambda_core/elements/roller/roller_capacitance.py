@@ -96,7 +96,11 @@ def capacitance(
         films = slice_films(bearing, ring, loads, motion, oil, given)
         nearest = deep.max(axis=1)
         closed = np.maximum(deep - nearest[:, None] + given.raceway_roughness, 0.0)
-        first = single_contact_constant(bearing.effective_length) / deep.shape[1] * closed**ISO_EXPONENT
+        first = (
+            single_contact_constant(bearing.effective_length, bearing.modulus(ring))
+            / deep.shape[1]
+            * closed**ISO_EXPONENT
+        )
         touching = slice_films(bearing, ring, first, motion, oil, given)
         contact = _Contact(bearing, motion, oil, given, dielectric, ambient)
         own = [(i, rib) for i, rib in enumerate(bearing.ribs) if rib.ring == ring]
@@ -137,7 +141,7 @@ class _Contact:
         """Return the capacitance of a roller end [F]."""
         if load <= 0.0:
             return 0.0
-        given, oil, shape, e_eff = self.given, self.oil, rib.contact, self.given.e_eff
+        given, oil, shape, e_eff = self.given, self.oil, rib.contact, self.bearing.modulus(rib.ring)
         contact, film = rib_end(rib, load, self.bearing, self.motion, oil, given)
         if film < SHORTED * given.rib_roughness:
             return np.inf
@@ -168,7 +172,7 @@ class _Contact:
             return least
         carried = loads > 0.0
         width = self.bearing.effective_length / len(loads)
-        radius, e_eff = self.bearing.radius(ring), self.given.e_eff
+        radius, e_eff = self.bearing.radius(ring), self.bearing.modulus(ring)
         line = loads[carried] / width
         half, peak = half_width(line, radius, e_eff), peak_pressure(line, radius, e_eff)
         plates = self.dielectric.permittivity(_MEAN * peak) * 2.0 * half * width
@@ -180,7 +184,7 @@ class _Contact:
         return max(found, least)
 
     def _line(self, ring: Ring, hertz: float, film: float, half: float, load: float) -> float:
-        radius, length, e_eff = self.bearing.radius(ring), self.bearing.effective_length, self.given.e_eff
+        radius, length, e_eff = self.bearing.radius(ring), self.bearing.effective_length, self.bearing.modulus(ring)
         speed = self.oil.viscosity * self.motion.entrainment / (e_eff * radius)
         material, weight = self.oil.pressure_viscosity * e_eff, load / (e_eff * radius * length)
         return self.dielectric.line(

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT
+from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT, STEEL_MODULUS
 from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
-from lambda_core.elements.roller.slices import slice_positions
+from lambda_core.elements.roller.slices import SLICES, slice_positions
 from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.hertz import stiffness_constant
 
@@ -29,7 +29,6 @@ _MOST_STEPS = 200
 _SETTLED = 1e-9  # imbalance over the largest force
 _SOFT = 1e-9  # of the stiffest direction: holds rollers that nothing touches
 _LONGEST = 50e-6  # longest step of a displacement [m]
-_STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' of steel on steel [Pa], behind the constant of ISO 16281
 
 
 @dataclass(frozen=True)
@@ -107,14 +106,15 @@ class Springs:
         return float(np.sum(self.constant / (self.exponent + 1.0) * closed ** (self.exponent + 1.0)))
 
 
-def single_contact_constant(length: float) -> float:
+def single_contact_constant(length: float, modulus: float = STEEL_MODULUS) -> float:
     """Return c of one raceway's load [N/m^(10/9)].
 
     It holds in Q = c delta^(10/9) of ONE raceway.
 
     ISO 16281's c_L holds for both raceways in series; alike, each takes half of the approach: c = c_L 2^(10/9).
+    It is that of steel; other materials are stiffer in proportion to E', the `modulus`.
     """
-    return float(ISO_CONSTANT * (length * 1e3) ** (8.0 / 9.0) * (2.0 * 1e3) ** ISO_EXPONENT)
+    return float(modulus / STEEL_MODULUS * ISO_CONSTANT * (length * 1e3) ** (8.0 / 9.0) * (2.0 * 1e3) ** ISO_EXPONENT)
 
 
 def balance(
@@ -124,7 +124,7 @@ def balance(
     held: tuple[bool, bool, bool, bool, bool] = (False, False, False, True, True),
     displacement: FloatArray | None = None,
     inertial: FloatArray | None = None,
-    slices: int = 40,
+    slices: int = SLICES,
     first_angle: float = 0.0,
     near: RollerEquilibrium | None = None,
     support: FloatArray | None = None,
@@ -335,9 +335,11 @@ def single_springs(bearing: RollerBearing, slices: int) -> Springs:
         ring = np.column_stack([ring, normal[:, 1] * ~is_inner])
     drop = bearing.drops(slices)
     clearance = 0.25 * bearing.clearance  # half of the diametral clearance, shared by both contacts
-    line = single_contact_constant(bearing.effective_length) / slices
-    constants = [np.full(2 * slices, line)]
-    constants += [np.array([stiffness_constant(r.contact.radius_x, r.contact.radius_y, _STEEL) for r in ribs])]
+    lines = [single_contact_constant(bearing.effective_length, bearing.modulus(ring)) for ring in ("outer", "inner")]
+    constants = [np.repeat(lines, slices) / slices]
+    constants += [
+        np.array([stiffness_constant(r.contact.radius_x, r.contact.radius_y, bearing.modulus(r.ring)) for r in ribs])
+    ]
     return Springs(
         roller=-np.column_stack([normal, turned]),
         ring=ring,

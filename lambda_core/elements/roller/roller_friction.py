@@ -52,6 +52,21 @@ ROLLING_LAWS: dict[str, _Law] = {
     "zhou-hoeprich-line": zhou_hoeprich_rolling_force,
     "aihara-line": aihara_rolling_force,
 }
+
+
+def _murch_wilson(speed: FloatArray, _peak: FloatArray, _e_eff: float, oil: OilState) -> FloatArray:
+    return line_film.inlet_heat_rolling_film(speed, oil.viscosity, oil.temperature_slope, oil.conductivity)
+
+
+def _zhu_cheng(speed: FloatArray, peak: FloatArray, e_eff: float, oil: OilState) -> FloatArray:
+    return line_film.inlet_heat_film(speed, 0.0, peak, e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity)
+
+
+# Factors of inlet heating on films of raceways by the names of the laws in motion: speed, peak pressure, E' [SI], oil.
+THERMAL_LAWS: dict[str, Callable[[FloatArray, FloatArray, float, OilState], FloatArray]] = {
+    "murch-wilson": _murch_wilson,
+    "zhu-cheng": _zhu_cheng,
+}
 FILM_LAWS: dict[str, _Law] = {"moes-line": line_film.moes_line_film, "dowson-toyoda": line_film.dowson_toyoda_film}
 
 
@@ -90,9 +105,9 @@ class FrictionParameters:
     replenishment: float = 3e-8  # SKF's K_rs of oil bath at low level and oil jet; zero: flooded
     oil_height: float = 0.0  # H above the lowest point of the outer raceway [m]; zero: no bath
     drag_factor: float = 1.0  # of the drag in a bath of that height
-    e_eff: float = 226e9  # E' of steel on steel [Pa]
     rolling_law: str = "biboulet-houpert-line"  # of ROLLING_LAWS
     film_law: str = "moes-line"  # of FILM_LAWS
+    thermal_law: str = "murch-wilson"  # of THERMAL_LAWS
 
 
 @dataclass(frozen=True)
@@ -105,6 +120,7 @@ class RollerFriction:
     rib: float = 0.0
     drag: float = 0.0
     film: dict[str, FloatArray] = field(default_factory=dict)  # central film of every slice [m], (Z, n); NaN unloaded
+    contact_film: dict[str, FloatArray] = field(default_factory=dict)  # central film of every contact [m], (Z,)
     film_parameter: dict[str, float] = field(default_factory=dict)  # smallest Lambda under load by ring
     pressure: dict[str, float] = field(default_factory=dict)  # largest Hertz pressure by ring [Pa]
     rib_film: float = math.nan  # smallest of the loaded ribs [m]
@@ -175,8 +191,9 @@ def friction(
         rib=sum(rib[0] for rib in loaded) * per_speed,
         drag=par.drag_factor * bath,
         film={ring: part.film for ring, part in found.items()},
+        contact_film={ring: part.contact_film for ring, part in found.items()},
         film_parameter={
-            ring: float(np.nanmin(part.film)) / par.raceway_roughness if np.any(loads[ring] > 0.0) else math.nan
+            ring: float(np.nanmin(part.contact_film)) / par.raceway_roughness if np.any(loads[ring] > 0.0) else math.nan
             for ring, part in found.items()
         },
         pressure={ring: float(part.pressure.max()) for ring, part in found.items()},
@@ -216,6 +233,7 @@ class _Raceway:
     rolling: float
     hysteresis: float
     film: FloatArray
+    contact_film: FloatArray
     pressure: FloatArray
     traction: FloatArray  # shear force of the contact [N], (Z,), without heat and supply
     ease: FloatArray  # slip per force [m/(s N)], (Z,)
@@ -244,11 +262,11 @@ def _raceway(
     """
     width = bearing.effective_length / loads.shape[1]
     line_load = loads / width
-    carried = line_load > 0.0
-    inlet = load, radius, speed, *_ = _inlets(bearing, ring, line_load, motion, oil, par)
+    carried, modulus = line_load > 0.0, bearing.modulus(ring)
+    inlet = load, radius, speed, *_ = _inlets(bearing, ring, line_load, motion, oil)
     force = np.where(carried, ROLLING_LAWS[par.rolling_law](*inlet), 0.0)
-    half = np.where(carried, half_width(load, radius, par.e_eff), 0.0)
-    peak = np.where(carried, peak_pressure(load, radius, par.e_eff), 0.0)
+    half = np.where(carried, half_width(load, radius, modulus), 0.0)
+    peak = np.where(carried, peak_pressure(load, radius, modulus), 0.0)
     film = slice_films(bearing, ring, loads, motion, oil, par)
     couple = 2.0 / (3.0 * math.pi) * par.loss_factor * line_load * half
     thick = np.minimum(oil.viscosity * np.exp(np.minimum(oil.pressure_viscosity * 0.5 * peak, 60.0)), 1e6)
@@ -258,6 +276,7 @@ def _raceway(
         rolling=float(2.0 * np.sum(force * speed) * width),
         hysteresis=float(np.sum(couple) * width * motion.roller_speed(ring)),
         film=film,
+        contact_film=_contact_film(bearing, ring, loads, motion, oil, par),
         pressure=peak,
         traction=np.sum(force, axis=1) * width,
         ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
@@ -266,12 +285,7 @@ def _raceway(
 
 
 def _inlets(
-    bearing: RollerBearing,
-    ring: Ring,
-    line_load: FloatArray,
-    motion: RollerMotion,
-    oil: OilState,
-    par: FrictionParameters,
+    bearing: RollerBearing, ring: Ring, line_load: FloatArray, motion: RollerMotion, oil: OilState
 ) -> tuple[FloatArray, FloatArray, FloatArray, float, float, float]:
     """Return what laws of the inlet take of slices.
 
@@ -281,7 +295,7 @@ def _inlets(
     share = 1.0 + along * math.tan(bearing.angles.half) / (0.5 * bearing.diameter)
     load = np.where(line_load > 0.0, line_load, 1.0)
     radius, speed = bearing.radius(ring) * share, motion.entrainment * share
-    return load, radius, speed, oil.viscosity, oil.pressure_viscosity, par.e_eff
+    return load, radius, speed, oil.viscosity, oil.pressure_viscosity, bearing.modulus(ring)
 
 
 def slice_films(
@@ -292,12 +306,28 @@ def slice_films(
     It is that of the law of the film with inlet heating, and NaN without load.
     """
     line_load = loads * (loads.shape[1] / bearing.effective_length)
-    inlet = load, radius, speed, *_ = _inlets(bearing, ring, line_load, motion, oil, par)
-    peak = peak_pressure(load, radius, par.e_eff)
-    heat = line_film.inlet_heat_film(
-        speed, 0.0, peak, par.e_eff, oil.viscosity, oil.temperature_slope, oil.conductivity
-    )
+    inlet = load, radius, speed, *_, modulus = _inlets(bearing, ring, line_load, motion, oil)
+    heat = THERMAL_LAWS[par.thermal_law](speed, peak_pressure(load, radius, modulus), modulus, oil)
     return np.where(line_load > 0.0, FILM_LAWS[par.film_law](*inlet) * heat, np.nan)
+
+
+def _contact_film(
+    bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState, par: FrictionParameters
+) -> FloatArray:
+    """Return the central film of every contact [m], (Z,).
+
+    Its load lies evenly on the length with the same integral of the root of the load per length, as in motion; NaN
+    without load.
+    """
+    total, width = loads.sum(axis=1), bearing.effective_length / loads.shape[1]
+    carries = total > 0.0
+    length = np.where(carries, width * np.sum(np.sqrt(loads), axis=1) ** 2 / np.where(carries, total, 1.0), 1.0)
+    even = np.where(carries, total / length, 1.0)
+    _, radius, speed, *rest = _inlets(bearing, ring, even[:, None], motion, oil)
+    radius, speed, modulus = radius[0] + 0.0 * even, speed[0] + 0.0 * even, bearing.modulus(ring)
+    peak = peak_pressure(loads.max(axis=1) / width, radius, modulus)
+    heat = THERMAL_LAWS[par.thermal_law](speed, peak, modulus, oil)
+    return np.where(carries, FILM_LAWS[par.film_law](even, radius, speed, *rest) * heat, np.nan)
 
 
 def _rib(
@@ -326,11 +356,12 @@ def rib_end(
     rib: Rib, load: float, bearing: RollerBearing, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> tuple[HertzContact, float]:
     """Return ellipse and film [m] of a roller end."""
-    contact = hertz_contact(load, rib.contact.radius_x, rib.contact.radius_y, par.e_eff)
+    modulus = bearing.modulus(rib.ring)
+    contact = hertz_contact(load, rib.contact.radius_x, rib.contact.radius_y, modulus)
     entrainment, turning = motion.rib(rib, bearing)
-    film = rib_film(load, rib.contact, entrainment, oil.viscosity, oil.pressure_viscosity, par.e_eff)
+    film = rib_film(load, rib.contact, entrainment, oil.viscosity, oil.pressure_viscosity, modulus)
     heat = line_film.inlet_heat_film(
-        entrainment, turning * rib.contact.height, contact.p_max, par.e_eff, oil.viscosity, oil.temperature_slope,
+        entrainment, turning * rib.contact.height, contact.p_max, modulus, oil.viscosity, oil.temperature_slope,
         oil.conductivity,
     )  # fmt: skip
     return contact, film * float(heat)

@@ -12,6 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.roller_bearing import RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance
 from lambda_core.elements.roller.roller_friction import RollerFriction
+from lambda_core.elements.roller.slices import SLICES
 
 # Places in pitches from the load's direction. Under a radial load the largest of all loads stands at the first.
 PLACES = (0.0, 0.25, 0.5, 0.75)
@@ -26,7 +27,7 @@ def over_a_pitch(
     displacement: FloatArray | None = None,
     inertial: FloatArray | None = None,
     support: FloatArray | None = None,
-    slices: int = 40,
+    slices: int = SLICES,
     places: Sequence[float] = PLACES,
 ) -> tuple[RollerEquilibrium, ...]:
     """Return the equilibria over one pitch.

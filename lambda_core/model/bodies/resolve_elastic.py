@@ -13,7 +13,7 @@ from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.formulas.elastic.ring import ElasticRing, RingWaves
 from lambda_core.laws.context import Material
 from lambda_core.model.bearing_model import Cage
-from lambda_core.model.bodies.resolve_materials import resolve_material
+from lambda_core.model.bodies.resolve_materials import materials_apart
 from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
@@ -89,11 +89,7 @@ def bent_rings(rollers: RollerBearing, case: Case, catalogue: Catalogue, ledger:
     """
     if case.elastic.inner_ring is None and case.elastic.outer_ring is None:
         return rollers
-    apart = Ledger()  # models in motion list materials for all bearings
-    materials = {part: resolve_material(part, case, catalogue, apart).material for _, part in _RINGS}
-    ledger.problems += apart.problems
-    for sentence in apart.assumptions:
-        ledger.assume(sentence)
+    materials = materials_apart([part for _, part in _RINGS], case, catalogue, ledger)
     found = resolve_rings(case.elastic, RingSections.of_rollers(rollers), materials, ledger)
     return replace(rollers, inner_waves=found.get("inner_ring"), outer_waves=found.get("outer_ring"))
 

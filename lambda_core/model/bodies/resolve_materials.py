@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from lambda_core.case.case import Case
@@ -76,6 +77,19 @@ def resolve_material(
             ledger.assume(f"rings and rolling elements of {row.name} where the case names no other material")
     numbers = [ledger.row(f"{where}.{name}", getattr(row, name), quantity) for name, quantity in _QUANTITIES.items()]
     return PartMaterial(Material(row.name, *numbers), row.thermal_expansion.value)
+
+
+def materials_apart(parts: Iterable[str], case: Case, catalogue: Catalogue, ledger: Ledger) -> dict[str, Material]:
+    """Return materials by part, without their values.
+
+    Assumptions and problems count; the models in motion list the values.
+    """
+    apart = Ledger()
+    found = {part: resolve_material(part, case, catalogue, apart).material for part in parts}
+    ledger.problems += [problem for problem in apart.problems if problem not in ledger.problems]
+    for sentence in apart.assumptions:
+        ledger.assume(sentence)
+    return found
 
 
 def resolve_lubricant(

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
+from lambda_core.elements.roller.roller_friction import OilState
 from lambda_core.formulas.oil import alpha_reciprocal, alpha_secant, alpha_tangent
 from lambda_core.laws.context import Oil
 from lambda_core.laws.law import Law
@@ -206,3 +207,16 @@ def _permittivity(row: LubricantRow, models: Registry) -> tuple[str, Callable[[f
         return float(eps[0])
 
     return name, value
+
+
+def oil_state(law: OilLaw, temperature: float, conductivity: float) -> OilState:
+    """Return the oil at a temperature [K] and ambient pressure."""
+    point, density = law.state(0.0, temperature)
+    found = coefficients_of(law, temperature)
+    return OilState(
+        viscosity=math.exp(point),
+        density=density,
+        pressure_viscosity=1e-9 * found.alpha_tangent_per_GPa,
+        temperature_slope=found.beta_per_K,
+        conductivity=conductivity,
+    )

@@ -101,6 +101,16 @@ class Equilibrium:
     converged: bool = True
     phase: float = 0.0
 
+    @property
+    def pose(self) -> FloatArray:
+        """Return the inner ring's pose against the outer one.
+
+        In the order of POSE, (5,) [m, rad].
+        """
+        inner, outer = self.context.bundle.bodies_now[INNER], self.context.bundle.bodies_now[OUTER]
+        tilt = inner.tilt - outer.tilt
+        return np.array([*(inner.position - outer.position), -tilt[1], tilt[0]])
+
     def loads_by_row(self) -> tuple[list[float], list[float]]:
         """Return the raceway loads row by row [N].
 

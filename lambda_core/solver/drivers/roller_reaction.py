@@ -58,7 +58,7 @@ class RollerReaction(Reaction):
         self.oil: Oil = oils[0]
         inner, outer = (initial(body.dofs[SPIN].motion) for body in (model.inner_ring, model.outer_ring))
         self.motion: RollerMotion = rolling_motion(rollers, inner, outer)
-        self._turned = np.ones(len(POSE)) if rollers.faces > 0 else _MIRROR
+        self._turned = _turned(rollers)
         self._pose = np.zeros(len(POSE))
         self._state: RollerEquilibrium | None = None
 
@@ -80,15 +80,7 @@ class RollerReaction(Reaction):
 
     def _balanced(self, pose: FloatArray) -> RollerEquilibrium:
         try:
-            self._state = balance(
-                self.rollers,
-                np.zeros(len(POSE)),
-                held=_HELD,
-                displacement=self._turned * pose,
-                inertial=self.motion.inertial(self.rollers),
-                first_angle=FIRST_AZIMUTH,
-                near=self._state,
-            )
+            self._state = rollers_between(self.rollers, self.motion, pose, near=self._state)
         except ArithmeticError as error:
             raise SolverError(f"{self.model.name}: {error}") from error
         return self._state
@@ -134,6 +126,39 @@ class RollerReaction(Reaction):
                 near = solve(held(self.model, straight), self._kernels, self._announce)
                 return solve_near(there, near, self._kernels)
         return solve(there, self._kernels, self._announce, strict=False)
+
+
+def rollers_between(
+    rollers: RollerBearing,
+    motion: RollerMotion,
+    pose: FloatArray,
+    first_angle: float = FIRST_AZIMUTH,
+    near: RollerEquilibrium | None = None,
+) -> RollerEquilibrium:
+    """Return the rollers' equilibrium between held rings.
+
+    It is in the axes of the rollers.
+
+    Parameters
+    ----------
+    pose : array
+        Of the inner ring against the outer one in the axes of the shaft [m, rad], (5,).
+    first_angle, near
+        As for :func:`balance`, which raises what this raises.
+    """
+    return balance(
+        rollers,
+        np.zeros(len(POSE)),
+        held=_HELD,
+        displacement=_turned(rollers) * pose,
+        inertial=motion.inertial(rollers),
+        first_angle=first_angle,
+        near=near,
+    )
+
+
+def _turned(rollers: RollerBearing) -> FloatArray:
+    return np.ones(len(POSE)) if rollers.faces > 0 else _MIRROR
 
 
 Ring = BearingReaction | RollerReaction

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.domain.errors import unknown_name
+from lambda_core.elements.roller.roller_bearing import is_conical
 from lambda_core.elements.roller.roller_drag import bath_drag
 from lambda_core.elements.roller.roller_friction import SKF_CONSTANTS, skf_kind
 from lambda_core.plugins import MethodRow, MethodTable, NotApplicable, RollerMethodInputs
@@ -78,7 +79,7 @@ def roller_load_variables(
         For a series that the table does not have.
     """
     diameter = 1e3 * mean_diameter
-    if kind == "tapered":
+    if is_conical(kind):
         if series not in _TAPERED:
             raise NotApplicable(unknown_name("series of SKF's table of tapered rollers", series, _TAPERED))
         r1, s1 = _TAPERED[series]
