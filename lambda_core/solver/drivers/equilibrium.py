@@ -49,9 +49,9 @@ _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends th
 MAX_ITERATIONS = {False: 5000, True: 1000}
 _ITERATIONS_PER_CALL = 50  # some hundredths of a second
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
-# First step in pseudo-time [s]; from a state near the equilibrium; and that of Newton's method, with which the
-# continuation ends.
-_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP = 1e-6, 1e-2, 1.0
+# First step in pseudo-time [s]; from a state near the equilibrium; and that with which the way from there is tried
+# first, for so many iterations: above 1 s the continuation is Newton's method.
+_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 100
 _BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there.
@@ -231,7 +231,8 @@ def continue_static(
 ) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report.
 
-    From a state that `is_near` the equilibrium it begins with longer steps, and ends at once where it stands in it.
+    From a state that `is_near` the equilibrium it begins with Newton's method, and from the same state with shorter
+    steps where that does not end soon.
     Which balls are `driven` by the cage is decided in the state where it is not known.
 
     With friction it begins anew where it stalls, as methods with a memory are restarted (Powell 1977, Math. Program.
@@ -246,9 +247,10 @@ def continue_static(
     spent = 0.0
     if is_near:
         there = state.copy()
-        status, report = _attempt(compiled, context, there, 1, _NEWTON_STEP, driven)
+        status, report = _attempt(compiled, context, there, _NEWTON_ITERATIONS, _NEWTON_STEP, driven)
+        spent = float(report["iterations"][0])
         if status == Status.OK:
-            state[:], attempts, spent = there, [], 1.0
+            state[:], attempts = there, []
     for most, step in attempts:
         status, report = _attempt(compiled, context, state, most, step, driven)
         spent += report["iterations"][0]

@@ -37,6 +37,7 @@ class Beginning:
 
     model: BearingModel
     frame: ContactFrame
+    rolling: ContactFrame  # that of the contacts with friction
     state: FloatArray
     driven: NDArray[np.int64]
     phase: float
@@ -45,7 +46,18 @@ class Beginning:
 def beginning(found: Equilibrium) -> Beginning:
     """Return where a search near an equilibrium begins."""
     context = found.context
-    return Beginning(context.model, context.frame, found.state, context.driven.copy(), found.phase)
+    rolling = mean_frame(context.model.geometry, found.arcs, context.frame)
+    return Beginning(context.model, context.frame, rolling, found.state, context.driven.copy(), found.phase)
+
+
+def _moved_frame(near: Beginning, rolling: ContactFrame) -> ContactFrame:
+    """Return the frame of a solution with moved contacts.
+
+    A frame is that of contacts without friction; it moves as much as that with friction does.
+    """
+    each = zip(near.frame.angles, rolling.angles, near.rolling.angles, strict=True)
+    inner, outer = (own + now - before for own, now, before in each)
+    return ContactFrame((inner, outer), rolling.mean_loads)
 
 
 def solve_near(
@@ -87,16 +99,20 @@ def solve_near(
     compiled, context = core(None), assemble(model, kernels, frame, oils)
     if context.size != near.state.size:
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
-    state = near.state.copy()
+    state, are_balls = near.state.copy(), model.rollers is None
+    driven = near.driven if are_balls else None
     try:
-        if not is_of_laws:
+        if not is_of_laws and are_balls:
+            continue_static(compiled, context, state, friction=True, is_near=True, driven=driven)
+            arcs = contact_channels(compiled, context, state)[0]
+            frame = _moved_frame(near, mean_frame(model.geometry, arcs, frame))
+            context = assemble(model, kernels, frame, oils)
+        elif not is_of_laws:
             without_friction(compiled, context, state)
             frame = mean_frame(model.geometry, contact_channels(compiled, context, state)[0], frame)
             context = assemble(model, kernels, frame, oils)
             now, before = L.elements_in(context.bundle, state), L.elements_in(context.bundle, near.state)
             now["velocity"], now["spin"] = before["velocity"], before["spin"]
-        are_balls = model.rollers is None
-        driven = near.driven if are_balls else None
         report = continue_static(compiled, context, state, friction=True, is_near=are_balls, driven=driven)
     except SolverError:
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
