@@ -114,7 +114,8 @@ class Effects:
             if phase == self._base.phase:
                 return self._base
             try:
-                return solve(self._model, self._kernels, by_warmer_oil=False, phase=phase)
+                near = self._base if self._model.rollers is None else None
+                return solve(self._model, self._kernels, by_warmer_oil=False, phase=phase, near=near)
             except SolverError:
                 raise SolverError("there is no equilibrium with friction at other positions of the balls") from None
 

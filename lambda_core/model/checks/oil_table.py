@@ -86,17 +86,22 @@ class OilLaw:
 
         The arguments are a pressure [Pa] and a temperature [K].
         """
-        ln_eta, rho = np.full(1, np.nan), np.full(1, np.nan)
-        status = self._kernel(np.array([pressure]), np.array([temperature]), self._par, ln_eta, rho)
-        if status != 1 or not (math.isfinite(ln_eta[0]) and math.isfinite(rho[0])):
-            sentence = self.model.errors.get(status, "no finite viscosity and density")
-            where = f"{pressure / _GIGA:g} GPa, {temperature - _ZERO_CELSIUS:g} degC"
-            raise CatalogueError(self.model.label, [Problem(where, sentence)])
+        ln_eta, rho = self._states(np.array([pressure]), temperature)
         return float(ln_eta[0]), float(rho[0])
+
+    def _states(self, pressures: FloatArray, temperature: float) -> tuple[FloatArray, FloatArray]:
+        """Return ln(eta) and rho over pressures."""
+        ln_eta, rho = np.full(pressures.size, np.nan), np.full(pressures.size, np.nan)
+        status = self._kernel(pressures, np.full(pressures.size, temperature), self._par, ln_eta, rho)
+        if status != 1 or not (np.isfinite(ln_eta).all() and np.isfinite(rho).all()):
+            sentence = self.model.errors.get(status, "no finite viscosity and density")
+            where = f"{pressures.max() / _GIGA:g} GPa, {temperature - _ZERO_CELSIUS:g} degC"
+            raise CatalogueError(self.model.label, [Problem(where, sentence)])
+        return ln_eta, rho
 
     def density(self, pressures: FloatArray, temperature: float) -> FloatArray:
         """Return rho [kg/m3] over pressures [Pa] at a temperature [K]."""
-        return np.array([self.state(pressure, temperature)[1] for pressure in pressures.tolist()])
+        return self._states(pressures, temperature)[1]
 
     def log_viscosity(self, temperature: float) -> Callable[[float], float]:
         """Return ln(eta) over pressure [Pa] at a temperature [K]."""

@@ -34,7 +34,7 @@ from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.fault_inputs import INPUTS
-from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
+from lambda_core.solver.drivers.first_state import first_frame, first_state, place_between, roll
 from lambda_core.solver.drivers.law_inputs import guides, times
 from lambda_core.solver.drivers.ring_values import are_ribs, contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
@@ -51,7 +51,7 @@ _ITERATIONS_PER_CALL = 50  # some hundredths of a second
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
 # First step in pseudo-time [s]; from a state near the equilibrium; and that with which the way from there is tried
 # first, for so many iterations: above 1 s the continuation is Newton's method.
-_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 100
+_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 40
 _BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there.
@@ -129,6 +129,7 @@ def solve(
     strict: bool = True,
     by_warmer_oil: bool = True,
     phase: float = 0.0,
+    near: Equilibrium | None = None,
 ) -> Equilibrium:
     """Find the quasi-static equilibrium at t = 0.
 
@@ -140,6 +141,8 @@ def solve(
         Whether to go by way of warmer oil where the direct search fails, which takes ten times as long.
     phase : float
         Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
+    near : Equilibrium, optional
+        Of the same balls at other azimuths, from whose places the search for the normal forces begins.
 
     Raises
     ------
@@ -151,7 +154,7 @@ def solve(
     if loose := loose_directions(model):
         raise SolverError(loose_sentence(model.name, loose[0]))
     kernels = kernels or Kernels(model, announce)
-    frame = first_frame(model)
+    frame = first_frame(model) if near is None else near.context.frame
     oils = derive_oils(model, kernels, frame)
     # A law that breaks the rules is refused at once, not after the solver was compiled.
     check_laws(model, kernels, frame, oils)
@@ -161,6 +164,8 @@ def solve(
         context = assemble(model, kernels, frame, oils)
         if state is None:
             state = first_state(context, phase)
+            if near is not None:
+                place_between(context, state, near.state)
         without_friction(compiled, context, state)
         contacts, _ = contact_channels(compiled, context, state)
         new = mean_frame(model.geometry, contacts, frame)
@@ -227,12 +232,13 @@ def continue_static(
     *,
     friction: bool,
     is_near: bool = False,
+    once: bool = False,
     driven: NDArray[np.int64] | None = None,
 ) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report.
 
     From a state that `is_near` the equilibrium it begins with Newton's method, and from the same state with shorter
-    steps where that does not end soon.
+    steps where that does not end soon; `once` it is given up there.
     Which balls are `driven` by the cage is decided in the state where it is not known.
 
     With friction it begins anew where it stalls, as methods with a memory are restarted (Powell 1977, Math. Program.
@@ -249,7 +255,7 @@ def continue_static(
         there = state.copy()
         status, report = _attempt(compiled, context, there, _NEWTON_ITERATIONS, _NEWTON_STEP, driven)
         spent = float(report["iterations"][0])
-        if status == Status.OK:
+        if status == Status.OK or once:
             state[:], attempts = there, []
     for most, step in attempts:
         status, report = _attempt(compiled, context, state, most, step, driven)
@@ -305,7 +311,7 @@ def _attempt(
     if driven is not None:
         held[:] = driven
     while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
-        status = advance(min(_ITERATIONS_PER_CALL, most))
+        status = advance(min(_ITERATIONS_PER_CALL, most - int(report["iterations"][0])))
     return status, report
 
 

@@ -100,6 +100,19 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     return y
 
 
+def place_between(context: SolverContext, state: FloatArray, near: FloatArray) -> None:
+    """Place balls and rings as in another state, in place.
+
+    Every ball gets the place between those two that stand on both sides of its azimuth in the other state.
+    """
+    balls, others = L.elements_in(context.bundle, state), L.elements_in(context.bundle, near)
+    context.shared_part(state)[:] = context.shared_part(near)
+    for row in np.split(np.arange(balls.size), context.model.geometry.rows):
+        at, old = balls["azimuth"][row], others["azimuth"][row]
+        for name in ("x", "radius"):
+            balls[name][row] = np.interp(at, old, others[name][row], period=2.0 * math.pi)
+
+
 def roll(model: BearingModel, frame: ContactFrame, balls: NDArray[Any], contacts: FloatArray | None = None) -> None:
     """Set the balls to pure rolling, in place.
 

@@ -14,7 +14,7 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.core import core
+from lambda_core.solver.core import Core, core
 from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.equilibrium import (
     Equilibrium,
@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.equilibrium import (
     solve,
     without_friction,
 )
-from lambda_core.solver.drivers.solver_context import assemble
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 
 
 @dataclass(frozen=True)
@@ -50,11 +50,20 @@ def beginning(found: Equilibrium) -> Beginning:
     return Beginning(context.model, context.frame, rolling, found.state, context.driven.copy(), found.phase)
 
 
-def _moved_frame(near: Beginning, rolling: ContactFrame) -> ContactFrame:
-    """Return the frame of a solution with moved contacts.
+def _moved(compiled: Core, context: SolverContext, near: Beginning, state: FloatArray) -> ContactFrame | None:
+    """Move contacts by Newton's method, in place.
+
+    Return their frame; None where unloaded balls have far to go: without friction they find their places sooner.
 
     A frame is that of contacts without friction; it moves as much as that with friction does.
     """
+    there = state.copy()
+    try:
+        continue_static(compiled, context, there, friction=True, is_near=True, once=True, driven=near.driven)
+    except SolverError:
+        return None
+    state[:] = there
+    rolling = mean_frame(context.model.geometry, contact_channels(compiled, context, state)[0], near.frame)
     each = zip(near.frame.angles, rolling.angles, near.rolling.angles, strict=True)
     inner, outer = (own + now - before for own, now, before in each)
     return ContactFrame((inner, outer), rolling.mean_loads)
@@ -102,11 +111,9 @@ def solve_near(
     state, are_balls = near.state.copy(), model.rollers is None
     driven = near.driven if are_balls else None
     try:
-        if not is_of_laws and are_balls:
-            continue_static(compiled, context, state, friction=True, is_near=True, driven=driven)
-            arcs = contact_channels(compiled, context, state)[0]
-            frame = _moved_frame(near, mean_frame(model.geometry, arcs, frame))
-            context = assemble(model, kernels, frame, oils)
+        moved = _moved(compiled, context, near, state) if not is_of_laws and are_balls else None
+        if moved is not None:
+            context = assemble(model, kernels, moved, oils)
         elif not is_of_laws:
             without_friction(compiled, context, state)
             frame = mean_frame(model.geometry, contact_channels(compiled, context, state)[0], frame)
