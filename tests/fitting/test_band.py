@@ -575,10 +575,11 @@ def test_bands_of_lives_end_where_lives_do() -> None:
 
 def test_the_text_of_a_machine_shows_the_bands_of_its_bearings(tmp_path: Path) -> None:
     tables = tomllib.loads(geared_shaft("box"))
+    ends_of = r"[\d. ]+ \.\. (?:above )?[\d. ]+"
     run = api.run(tables, ["solver.duration=1 ms"], out=tmp_path / "box.h5", band=True).summary()
     for text in (api.quasistatic(tables, band=True).text(), run.text()):
         for head in ("band power loss W", "minimum film um", "maximum pressure GPa", "capacitance nF", "rating life h"):
-            assert re.search(rf"{head} +[\d. ]+ \.\. [\d. ]+ +[\d. ]+ \.\. [\d. ]+\n", text), head
+            assert re.search(rf"{head} +{ends_of} +{ends_of}\n", text), head
 
 
 def test_a_case_without_a_solution_near_has_its_answer_and_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,6 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.fitting.least_squares import Data, fit
 from lambda_core.fitting.next_point import next_point
 from lambda_core.fitting.parameters import Parameter
+from lambda_core.fitting.residual_tests import trend_test
 from lambda_core.fitting.uncertainty import robust_factor
 
 from . import certified as C
@@ -207,3 +208,16 @@ def test_the_covariance_counts_free_residuals_and_outliers() -> None:
     """
     residuals = np.array([0.5, -0.5, 0.5, -0.5, 1.0, -1.0, 3.0, -3.0])
     assert robust_factor(residuals, 2, 1.5) == pytest.approx((13 / 12) ** 2 * (7.5 / 6) / 0.75**2)
+
+
+def test_a_trend_of_a_thousand_right_rows_is_as_rare_as_promised() -> None:
+    """Draw residuals of a right law over three conditions."""
+    found = []
+    for seed in range(400):
+        random = np.random.default_rng(seed)
+        jacobian, residuals = random.uniform(0.2, 1.0, (1000, 1)), random.standard_normal(1000)
+        residuals -= jacobian[:, 0] * (jacobian[:, 0] @ residuals) / (jacobian[:, 0] @ jacobian[:, 0])
+        columns = 10.0 ** random.uniform(0.0, 2.0, (3, 1000))
+        found += [trend_test(residuals, jacobian, column, is_error_known=False) for column in columns]
+    assert 0.03 < np.mean(np.array(found) < 0.05) < 0.07
+    assert np.mean(np.array(found) < 0.01) < 0.02
