@@ -125,7 +125,7 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
         Totals(
             float(times[k]),
             float(running[k, :_RACEWAYS].sum()),
-            float(running[k, : -L.BESIDE_DISSIPATED].sum()),
+            float(running[k, : -L.NOT_DISSIPATED].sum()),
             *angles[i],
             float(powers["input"][k]),
             float(powers["input_abs"][k]),

@@ -49,7 +49,7 @@ class CvodeRun:
 
         It counts from the first time; the array has shape (n,).
         """
-        lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.BESIDE_LOSSES].sum(axis=1)
+        lost: FloatArray = self.integrals[:, : self.integrals.shape[1] - L.NOT_LOST].sum(axis=1)
         return lost
 
 

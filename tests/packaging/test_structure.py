@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 CORE = sorted((ROOT / "lambda_core").rglob("*.py"))
-OURS = [*CORE, *(path for room in ("plugins", "db", "gui", "cli") for path in sorted((ROOT / room).rglob("*.py")))]
+OURS = [*CORE, *(path for folder in ("plugins", "db", "gui", "cli") for path in sorted((ROOT / folder).rglob("*.py")))]
 LONGEST = 500  # lines of a module
 
 
@@ -98,13 +98,13 @@ CIRCLES = {
 }
 
 
-def imports_of(room: Path) -> dict[str, set[str]]:
+def imports_of(folder: Path) -> dict[str, set[str]]:
     """Return the imports of each module.
 
     Within a package, in functions and for type checkers, too.
     """
-    prefix = ".".join(room.relative_to(ROOT).parts)
-    paths = {f"{prefix}.{'.'.join(p.relative_to(room).with_suffix('').parts)}": p for p in room.rglob("*.py")}
+    prefix = ".".join(folder.relative_to(ROOT).parts)
+    paths = {f"{prefix}.{'.'.join(p.relative_to(folder).with_suffix('').parts)}": p for p in folder.rglob("*.py")}
     graph: dict[str, set[str]] = {}
     for name, path in paths.items():
         graph[name] = set()
@@ -138,6 +138,6 @@ def test_circles_of_imports_are_found() -> None:
     assert circles({"p.a": {"p.b"}, "p.b": {"p.c"}, "p.c": {"p.a"}, "p.d": {"p.a"}, "p.e": set()}) == {"a b c"}
 
 
-@pytest.mark.parametrize("room", CIRCLES)
-def test_circles_of_imports_only_get_fewer(room: str) -> None:
-    assert circles(imports_of(ROOT / "lambda_core" / room)) == CIRCLES[room]
+@pytest.mark.parametrize("folder", CIRCLES)
+def test_circles_of_imports_only_get_fewer(folder: str) -> None:
+    assert circles(imports_of(ROOT / "lambda_core" / folder)) == CIRCLES[folder]

@@ -123,7 +123,7 @@ class Machine:
         dydt, rates = np.full(y.size, np.nan), np.zeros(L.power_count(bundle))
         ok = core().evaluate(t, y, bundle, dydt, rates, want)
         assert ok == 1, fault_sentence(self.context)
-        losses = dict(zip((*LOSSES, "support"), rates[: -L.BESIDE_DISSIPATED].tolist(), strict=True))
+        losses = dict(zip((*LOSSES, "support"), rates[: -L.NOT_DISSIPATED].tolist(), strict=True))
         bodies, balls = (w.view(np.float64).reshape(-1, 6).copy() for w in (bundle.body_wrenches, bundle.ball_wrenches))
         powers = running(rates)
         return Evaluation(dydt, losses, float(powers["input"]), float(powers["drive"]), balls, bodies)

@@ -259,7 +259,7 @@ def freeze(
         start=start_,
         varied=tuple(options),
         constants=followed,
-        losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
+        losses=scratch.rates.shape[-1] - L.NOT_LOST,
         circuit=electric,
         prescribed=prescribed,
         machine=begun.machine,

@@ -81,8 +81,8 @@ class Losses(NamedTuple):
 # Powers, and their running integrals: Losses of every raceway, then records.RUNNING, which begins with losses too.
 MECHANISMS = len(Losses._fields)
 RUNNING_SIZE = R.floats_of(R.RUNNING)
-BESIDE_LOSSES = RUNNING_SIZE - 4  # powers at the end that are no losses of bearings
-BESIDE_DISSIPATED = BESIDE_LOSSES - 1  # that are not dissipated: losses, and what dampers to the ground take
+NOT_LOST = RUNNING_SIZE - 4  # powers at the end that are no losses of bearings
+NOT_DISSIPATED = NOT_LOST - 1  # that are not dissipated: losses, and what dampers to the ground take
 
 
 def power_count(bundle: Bundle) -> int:

@@ -247,7 +247,7 @@ class MotionEngine:
         The relative angle of the rings; both since the start.
         """
         values = self._memory.integrals
-        lost = sum(values[: values.size - L.BESIDE_LOSSES].tolist())
+        lost = sum(values[: values.size - L.NOT_LOST].tolist())
         return lost, float(running(values)["relative_speed"])
 
     def _energy(self) -> float:

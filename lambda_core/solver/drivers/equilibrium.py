@@ -401,7 +401,7 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
     system["guides_on"], system["drag_azimuths"] = 1, 1
     if ok != 1:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
-    return contacts[0], losses_by_ring(g, rates[0, : -L.BESIDE_LOSSES]).copy()
+    return contacts[0], losses_by_ring(g, rates[0, : -L.NOT_LOST]).copy()
 
 
 def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:

@@ -106,7 +106,7 @@ def channels_of(
         "land_force": lands,
         "bearing_capacitance": totals["capacitance"].copy(),
         "input_torque": totals["torque"].copy(),
-        "loss": losses_by_ring(geometry, rates[:, : -L.BESIDE_LOSSES]).copy(),
+        "loss": losses_by_ring(geometry, rates[:, : -L.NOT_LOST]).copy(),
         "support_power": running(rates)["support"].copy(),
         "input_power": running(rates)["input"].copy(),
         "stored_energy": totals["stored_energy"].copy(),

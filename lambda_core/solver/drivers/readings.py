@@ -163,7 +163,7 @@ class BearingReadings:
         ring's position) [m s].
         """
         so_far, turned = running(values), self._angles(y) - self._start
-        losses = losses_by_ring(self._context.model.geometry, values[: -L.BESIDE_LOSSES])
+        losses = losses_by_ring(self._context.model.geometry, values[: -L.NOT_LOST])
         own = {
             **{f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)},
             "support": float(so_far["support"]),

@@ -11,7 +11,6 @@ the energy of the states part by small squares alone. By the trapezium rule they
 from __future__ import annotations
 
 from lambda_core.solver.arrays.bundle import (
-    BESIDE_DISSIPATED,
     BPSI,
     BVR,
     BVT,
@@ -19,6 +18,7 @@ from lambda_core.solver.arrays.bundle import (
     BWX,
     MECHANISMS,
     NB,
+    NOT_DISSIPATED,
     NS,
     RUNNING_SIZE,
     SAY,
@@ -37,7 +37,7 @@ _LEFT_ON_ROLLERS = 0.1  # of the power that flows, by what the iteration leaves 
 _AT_ONCE = 0.25  # of what earlier steps have left
 _CLOSER = 0.1  # of the floor is left to the iteration: what it leaves looks to the scheme like a loss of its own
 _ROUNDING = 2.0**-51  # relative, of a double: two units in its last place
-_OF_ONE = 2 * MECHANISMS + RUNNING_SIZE - BESIDE_DISSIPATED  # dissipators of one bearing
+_OF_ONE = 2 * MECHANISMS + RUNNING_SIZE - NOT_DISSIPATED  # dissipators of one bearing
 _OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rule, 2/9 of 2/9 + 1/12
 
 
@@ -240,7 +240,7 @@ def _flow(mem):
     control, rates, integrals = mem.control[0], mem.rates, mem.integrals
     now, so_far = running_of(rates)[0], running_of(integrals)[0]
     lost, all_lost = 0.0, 0.0
-    for i in range(rates.size - BESIDE_DISSIPATED):
+    for i in range(rates.size - NOT_DISSIPATED):
         lost += rates[i]
         all_lost += integrals[i]
     flow = max(lost, now.input_abs)
@@ -395,7 +395,7 @@ def leak_of_step(mem, h):
     may a blow, of what the steps before have left. Errors of quadrature have either sign, and where a loss jumps no
     step is short enough.
     """
-    losses = mem.rates.size - BESIDE_DISSIPATED
+    losses = mem.rates.size - NOT_DISSIPATED
     # One bearing has two raceways: loops of a length that the compiler knows.
     error = _quadrature(mem, h, _OF_ONE) if losses == _OF_ONE else _quadrature(mem, h, losses)
     control, lost, own = mem.control[0], _dissipated(mem, h), allowed(mem, h, LEAK, floor_of(mem, h))
@@ -424,5 +424,5 @@ def add_to_integrals(mem):
         mem.integrals1[i] = mem.integrals[i]
         mem.integrals[i] += grown
     mem.control[0].dissipated_power = 0.0
-    for i in range(mem.rates.size - BESIDE_DISSIPATED):
+    for i in range(mem.rates.size - NOT_DISSIPATED):
         mem.control[0].dissipated_power += mem.rates[i]

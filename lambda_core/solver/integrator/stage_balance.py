@@ -6,7 +6,7 @@ stages share with a step of the BDF.
 
 from __future__ import annotations
 
-from lambda_core.solver.arrays.bundle import BESIDE_DISSIPATED, NS, SSIGMA, SVX, SWY
+from lambda_core.solver.arrays.bundle import NOT_DISSIPATED, NS, SSIGMA, SVX, SWY
 from lambda_core.solver.integrator.balance import LEAK, SCATTER, allowed, floor_of
 from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import helper, running_of
@@ -32,7 +32,7 @@ def leak_of_stages(mem, h):
                 taken += mem.inertia[i] * stages[j, i] * along
     for j in range(STAGES):
         lost = 0.0
-        for i in range(mem.rates.size - BESIDE_DISSIPATED):
+        for i in range(mem.rates.size - NOT_DISSIPATED):
             lost += mem.stage_rates[j, i]
         error += ERROR[j] * lost
     lost = abs(h * h * taken) / allowed(mem, h, LEAK, floor_of(mem, h))
