@@ -21,6 +21,7 @@ _LARGEST = 16 * 2**20  # [byte] of a file
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
 _LISTED = 16  # most names that an error lists
 _LONGEST, _BEGIN = 80, 20  # characters of a number, and of the part of it that an error shows
+_SMALL, _BIG = 1e-15, 1e15  # sizes of numbers but 0, in their units: far beyond, squares overflow
 _SHARE = "%"  # unit of an error as a share of the value
 
 
@@ -245,6 +246,8 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
         number = float(cell)
         if not math.isfinite(number):
             raise ValueError(f'"{cell}" is not a finite number')
+        if number and not _SMALL <= abs(number) <= _BIG:
+            raise ValueError(f'"{cell}": a number other than 0 lies between {_SMALL:g} and {_BIG:g} in size')
         if column.kind in ("share", "error", "condition error") and number <= 0.0:
             raise ValueError(f'"{cell}": an error must be above zero')
         if column.kind == "measured" and number < 0.0 and not _may_be_negative(column, words):

@@ -35,6 +35,7 @@ _STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' of the steel bodies behind t
 # c of one raceway, Q = c L^(8/9) delta^(10/9) (N, m), of c_L = 35948 (N, mm) of two in series, each with half of delta.
 _ONE_RACEWAY = 35948.0 * 1e3 ** (8.0 / 9.0) * 2e3 ** (10.0 / 9.0)
 _NEWTON = 6  # steps of the logarithm's solution: the error falls below rounding
+_GAP_STEPS = 64  # of Simpson's rule over the gap around a flat
 
 
 def hertz_line(line_load: float, R_x: float, E_eff: float) -> tuple[float, float]:
@@ -436,12 +437,30 @@ def squeeze_line(
     return OK
 
 
+def _around_a_flat(h: float, b: float, R: float) -> float:
+    """Return the integral of :func:`line_gap` over one side [-]."""
+    if b >= R:
+        return 0.0
+    end = math.acosh(R / b)
+    rise = b * b / (2.0 * R)
+    total = 0.0  # the integrand vanishes at the edge
+    for i in range(1, _GAP_STEPS + 1):
+        s = i / _GAP_STEPS
+        w = end * s * s
+        grown = math.exp(w)
+        across = 0.5 * (grown - 1.0 / grown)
+        along = 0.5 * (grown + 1.0 / grown)
+        weight = 1.0 if i == _GAP_STEPS else 4.0 if i % 2 == 1 else 2.0
+        total += weight * 2.0 * end * s * b * across / (h + rise * (across * along - w))
+    return total / (3.0 * _GAP_STEPS)
+
+
 @law(
     "capacitance",
     "line-gap",
     role_api=3,
-    reference="Derjaguin 1934, Kolloid-Z. 69, 155, for a cylinder",
-    validity="line contacts; the gap outside the flat is that of the undeformed cylinder, wider than the true one",
+    reference="gap: Johnson, Contact Mechanics (1985), section 4.2(c); plates: Derjaguin 1934, Kolloid-Z. 69, 155",
+    validity="line contacts whose surroundings are filled with oil; without fringes and constriction of the film",
     contact="line",
 )
 def line_gap(
@@ -460,19 +479,18 @@ def line_gap(
 ) -> int:
     """Capacitance of a line contact and its gaps.
 
-    The gaps on both sides count to where the surfaces are a roller radius apart.
+    The gaps on both sides count to where x is a radius R.
 
-    C = C_Hertz + 2 eps L int_b^X dx/(h + (x^2 - b^2)/(2 R)), X = R: with c^2 = 2 R h - b^2 the integral is
-    2 R/c [atan(X/c) - atan(b/c)], or a logarithm where c^2 is negative. Without load the cylinder's own.
+    C = C_Hertz + 2 eps L int_b^R dx/g. Outside the half-width b Hertz's surfaces stand apart by
+    g = h + b^2/(2 R) [xi sqrt(xi^2 - 1) - arcosh xi], xi = x/b (Johnson 1985, section 4.2(c)). Simpson's rule takes the
+    integral over s, xi = cosh(W s^2), to 4e-5. Where b^2 is below 1e-6 R h the gap is h + x^2/(2 R), and the integral
+    sqrt(2 R/h) [atan(R/c) - atan(b/c)], c = sqrt(2 R h).
     """
     gap = at_least(h, 1e-10)
-    square = 2.0 * R_x * gap - semi_b * semi_b
-    root = math.sqrt(at_least(abs(square), 1e-18))
-    if square > 0.0:
+    if semi_b * semi_b < 1e-6 * R_x * gap:
+        root = math.sqrt(2.0 * R_x * gap)
         sides = 2.0 * R_x / root * (math.atan(R_x / root) - math.atan(semi_b / root))
     else:
-        far = (R_x - root) / (R_x + root)
-        near = at_least((semi_b - root) / (semi_b + root), 1e-12)
-        sides = R_x / root * (math.log(far) - math.log(near))
-    out[0] = C_hertz + 2.0 * VACUUM_PERMITTIVITY * eps_r0 * R_y * at_least(sides, 0.0)
+        sides = _around_a_flat(gap, semi_b, R_x)
+    out[0] = C_hertz + 2.0 * VACUUM_PERMITTIVITY * eps_r0 * R_y * sides
     return OK

@@ -70,6 +70,8 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("friction torque [N mm]\n-100\n", 'friction torque [N mm]: "-100": must be 0 or above'),
         ("power loss [W],power loss error [%]\n1,0\n", "an error must be above zero"),
         ("power loss [W],power loss error [%]\n1,-3\n", '"-3": an error must be above zero'),
+        ("power loss [W],power loss error [%]\n1,1e+300\n", '"1e+300": a number other than 0 lies between 1e-15 and'),
+        ("power loss [W],power loss error [%]\n1,1e-300\n", '"1e-300": a number other than 0 lies between 1e-15 and'),
         ("power loss [W],\n1,\n", "line 1, column 2       has no name: name the column"),
         ("power loss [W]\n1_0\n", '"1_0" is not a number'),
         (f"power loss [W]\n{400 * '9'}\n", '"99999999999999999999..." has 400 characters'),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -235,19 +236,25 @@ def test_two_rollers_push_rub_and_squeeze() -> None:
     Published(total, "Reynolds' equation, integrated", "closed form", rel=1e-6).check(out[1])
 
 
-@pytest.mark.parametrize("width", [0.0, 5e-5, 2e-4])
-def test_capacitance_of_the_gap(width: float) -> None:
-    """Compare `capacitance`, `line-gap` with the gap."""
-    out, film, vacuum = outputs(1), 0.5e-6, 8.8541878128e-12
+@pytest.mark.parametrize("film", [2e-8, 0.5e-6])
+@pytest.mark.parametrize("width", [0.0, 1e-8, 1e-7, 5e-6, 5e-5, 2e-4])
+def test_capacitance_of_the_gap(width: float, film: float) -> None:
+    """Compare `capacitance`, `line-gap` with Hertz's gap.
+
+    Its integral is continuous from no load on; the flat is given.
+    """
+    out, vacuum = outputs(1), 8.8541878128e-12
     line_contact.line_gap(1e-10, film, 0.5 * LENGTH, width, RADIUS, LENGTH, 0.0, 0.0, 0.0, 2.2, None, out)
-    side = quad(
-        lambda x: 1.0 / (film + (x * x - width * width) / (2.0 * RADIUS)),
-        width,
-        RADIUS,
-        points=(width + 1e-5, width + 1e-4, width + 1e-3),
-        limit=400,
-    )[0]
-    Published(1e-10 + 2.0 * vacuum * 2.2 * LENGTH * side, "quadrature", "closed form", rel=1e-4).check(out[0])
+
+    def gap(x: float) -> float:
+        if width == 0.0:
+            return film + x * x / (2.0 * RADIUS)
+        xi = x / width
+        return film + width**2 / (2.0 * RADIUS) * (xi * math.sqrt(xi * xi - 1.0) - math.acosh(xi))
+
+    places = [width, *(width + step for step in (1e-6, 1e-5, 1e-4, 1e-3)), RADIUS]
+    side = sum(quad(lambda x: 1.0 / gap(x), *ends, limit=400)[0] for ends in itertools.pairwise(places))
+    Published(1e-10 + 2.0 * vacuum * 2.2 * LENGTH * side, "quadrature", "Simpson's rule", rel=1e-4).check(out[0])
 
 
 @pytest.mark.parametrize(("rpm", "level"), [(500.0, 0.0), (3000.0, 4e-3), (6000.0, -2e-3)])
