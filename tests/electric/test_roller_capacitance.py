@@ -64,19 +64,19 @@ def test_the_quasi_static_capacitance_is_that_of_the_run_at_its_start(run: Resul
 def test_the_quasi_static_contact_is_flats_of_slices_and_the_gaps_at_their_sides(still: QuasiStatic) -> None:
     """Compute the most loaded inner contact by hand.
 
-    Moes' films and Hertz's widths of its laminae are those of the friction; the gaps are integrated numerically.
+    Its film and Hertz's widths of its laminae are those of the friction; Hertz's gaps are integrated numerically.
     """
     model = still.solved()
     solved = solve_rollers(model)
     carried = solved.state.inner[0] > 0.0
-    loads, films = solved.state.inner[0][carried], solved.friction.film["inner"][0][carried]
+    loads, film = solved.state.inner[0][carried], float(solved.friction.contact_film["inner"][0])
     width, radius = model.bearing.effective_length / carried.size, model.bearing.radius("inner")
     half = np.sqrt(8.0 * loads / width * radius / (math.pi * model.bearing.modulus("inner")))
     oil = VACUUM_PERMITTIVITY * PERMITTIVITY
-    flats = oil * float(np.sum(2.0 * half * width / films))
-    film = float(np.sum(half) / np.sum(half / films))
-    x = np.geomspace(half.max(), radius, 200_001)
-    gap = film + (x**2 - half.max() ** 2) / (2.0 * radius)
+    flats = oil * float(np.sum(2.0 * half * width)) / film
+    x = half.max() * np.cosh(np.linspace(0.0, math.acosh(radius / half.max()), 200_001))
+    xi = np.maximum(x / half.max(), 1.0)
+    gap = film + half.max() ** 2 / (2.0 * radius) * (xi * np.sqrt(xi**2 - 1.0) - np.arccosh(xi))
     sides = 2.0 * oil * model.bearing.effective_length * float(np.trapezoid(1.0 / gap, x))
     first = next(one for one in still.contacts if (one.ball, one.ring) == (1, "inner"))
     assert first.capacitance_pF == pytest.approx(1e12 * (flats + sides), rel=1e-4)

@@ -2,7 +2,7 @@
 
 Every contact with a raceway has the capacitance that the law of line contacts gives for the flats of its slices, with
 the gaps at their sides; an open one has that of its gap. Ends of rollers on ribs count where they carry, as points. It
-is the sum of compiled code (solver.roller.capacitance) with the films of the quasi-static friction.
+is the sum of compiled code (solver.roller.capacitance) with the film of every contact.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from lambda_core.elements.roller.roller_equilibrium import (
     single_contact_constant,
     single_springs,
 )
-from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState, rib_end, slice_films
+from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState, contact_film, rib_end
 from lambda_core.elements.roller.roller_motion import RollerMotion
 from lambda_core.formulas.between_rings import between_rings
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
@@ -79,9 +79,9 @@ def capacitance(
 ) -> RollerCapacitance:
     """Return the capacitances of an equilibrium.
 
-    A contact less deep than the roughness has at least the capacitance of one that just touches: the film of a nearest
-    slice as deep as the roughness stands for lighter ones and, where it is the larger one, for the gap of open ones.
-    So the capacitance is continuous where a roller lifts off.
+    A contact less deep than the roughness has at least the capacitance of one that just touches: the film of a contact
+    whose nearest slice is as deep as the roughness stands for lighter ones and, where it is the larger one, for the gap
+    of open ones. So the capacitance is continuous where a roller lifts off.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def capacitance(
     ambient, columns = float(dielectric.permittivity(np.zeros(1))[0]), []
     for ring, deep in penetrations(bearing, state).items():
         loads = state.inner if ring == "inner" else state.outer
-        films = slice_films(bearing, ring, loads, motion, oil, given)
+        films = contact_film(bearing, ring, loads, motion, oil, given)
         nearest = deep.max(axis=1)
         closed = np.maximum(deep - nearest[:, None] + given.raceway_roughness, 0.0)
         first = (
@@ -101,12 +101,12 @@ def capacitance(
             / deep.shape[1]
             * closed**ISO_EXPONENT
         )
-        touching = slice_films(bearing, ring, first, motion, oil, given)
+        touching = contact_film(bearing, ring, first, motion, oil, given)
         contact = _Contact(bearing, motion, oil, given, dielectric, ambient)
         own = [(i, rib) for i, rib in enumerate(bearing.ribs) if rib.ring == ring]
         columns.append(
             [
-                contact.of_raceway(ring, loads[j], films[j], float(nearest[j]), float(touching[j, np.argmax(deep[j])]))
+                contact.of_raceway(ring, loads[j], float(films[j]), float(nearest[j]), float(touching[j]))
                 + sum(contact.of_rib(rib, float(state.ribs[j, i])) for i, rib in own)
                 for j in range(bearing.count)
             ]
@@ -153,13 +153,15 @@ class _Contact:
             oil.pressure_viscosity * e_eff, load / (e_eff * shape.radius_x**2), self.ambient,
         )  # fmt: skip
 
-    def of_raceway(self, ring: Ring, loads: FloatArray, films: FloatArray, deep: float, touching: float) -> float:
+    def of_raceway(self, ring: Ring, loads: FloatArray, film: float, deep: float, touching: float) -> float:
         """Return the capacitance of a line [F].
 
         Parameters
         ----------
-        loads, films : array
-            Of the slices [N, m].
+        loads : array
+            Of the slices [N].
+        film : float
+            Of the contact [m].
         deep : float
             Approach of the nearest slice [m], negative for a gap.
         touching : float
@@ -176,11 +178,11 @@ class _Contact:
         line = loads[carried] / width
         half, peak = half_width(line, radius, e_eff), peak_pressure(line, radius, e_eff)
         plates = self.dielectric.permittivity(_MEAN * peak) * 2.0 * half * width
-        hertz = float(np.sum(plates / films[carried]))
-        film = float(np.sum(plates)) / hertz
         if film < SHORTED * roughness:
             return np.inf
-        found = self._line(ring, VACUUM_PERMITTIVITY * hertz, film, float(half.max()), float(loads.sum()))
+        found = self._line(
+            ring, VACUUM_PERMITTIVITY * float(np.sum(plates)) / film, film, float(half.max()), float(loads.sum())
+        )
         return max(found, least)
 
     def _line(self, ring: Ring, hertz: float, film: float, half: float, load: float) -> float:

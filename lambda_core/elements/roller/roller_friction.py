@@ -276,7 +276,7 @@ def _raceway(
         rolling=float(2.0 * np.sum(force * speed) * width),
         hysteresis=float(np.sum(couple) * width * motion.roller_speed(ring)),
         film=film,
-        contact_film=_contact_film(bearing, ring, loads, motion, oil, par),
+        contact_film=contact_film(bearing, ring, loads, motion, oil, par),
         pressure=peak,
         traction=np.sum(force, axis=1) * width,
         ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
@@ -311,7 +311,7 @@ def slice_films(
     return np.where(line_load > 0.0, FILM_LAWS[par.film_law](*inlet) * heat, np.nan)
 
 
-def _contact_film(
+def contact_film(
     bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState, par: FrictionParameters
 ) -> FloatArray:
     """Return the central film of every contact [m], (Z,).
