@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 HEAD = 17  # characters before what a line says
 _INDENT = 9  # the same of lines without a head
@@ -32,3 +32,8 @@ def wrapped(lines: Sequence[str], width: int | None) -> list[str]:
                 row += part
         found += textwrap.wrap(row, width, subsequent_indent=indent, break_on_hyphens=False, drop_whitespace=True)
     return found
+
+
+def lines_under(head: str, texts: Iterable[str]) -> list[str]:
+    """Return a line per text; the first has the head."""
+    return [f"{'' if i else head:<{HEAD}}{text}".rstrip() for i, text in enumerate(texts)]

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.errors import CaseError, UsageError
-from lambda_core.domain.lists import listed
+from lambda_core.domain.errors import CaseError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -86,22 +85,3 @@ def resolve(
         return freeze(case, models, catalogue, is_static=is_static, place=place)
     with closing(models.catalogue()) as opened:
         return freeze(case, models, opened, is_static=is_static, place=place)
-
-
-def model_of(
-    source: Source | BearingModel,
-    overrides: Iterable[str] = (),
-    *,
-    is_static: bool = False,
-) -> BearingModel:
-    """Return the resolved model of one bearing.
-
-    The argument is whatever a function of this package takes as a case.
-    """
-    from lambda_core.model.bearing_model import BearingModel
-
-    if not isinstance(source, BearingModel):
-        return check_bearing(source, overrides, is_static=is_static)
-    if listed(overrides, "overrides"):
-        raise UsageError("a resolved model takes no overrides: change the case and resolve it")
-    return source

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lambda_core.domain.number_text import NONE
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.domain.wrapping import HEAD as INDENT
+from lambda_core.domain.wrapping import lines_under
 from lambda_core.results.band_text import ends, named_sources
 from lambda_core.results.model_band import ModelBand
 
@@ -36,6 +36,4 @@ def band_lines(band: Sequence[float], bearings: Mapping[str, ModelBand | None], 
     if not band:
         return []
     both = f"{ends(band, 'N mm', units, named=True)} of all bearings (90 %)"
-    return [
-        f"{'' if i else 'model band':<{INDENT}}{text}" for i, text in enumerate([both, *named_sources(bearings, units)])
-    ]
+    return lines_under("model band", [both, *named_sources(bearings, units)])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.domain.wrapping import wrapped
+from lambda_core.domain.wrapping import lines_under, wrapped
 from lambda_core.results.band_text import band_rows, ends
 from lambda_core.results.bearing_table import band_lines, bearing_table, digits
 from lambda_core.results.quantity import quantities, shown
@@ -42,7 +42,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
     torque = units.plus_minus(found.friction_torque_Nmm, found.friction_torque_ci_Nmm, "N mm")
     rest = [
         line("friction torque", f"{torque} of all bearings", verdict),
-        *(line("not converged" if i == 0 else "", reason) for i, reason in enumerate(found.reasons)),
+        *lines_under("not converged", found.reasons),
         *band_lines(
             found.friction_torque_Nmm_band, {name: one.model_band for name, one in found.bearings.items()}, units
         ),
@@ -57,7 +57,7 @@ def machine_text(found: Summary, width: int | None = None, units: UnitSystem = S
         *(line(name, *(f"{axis} {_swung(one, k, units)}" for k, axis in enumerate("xyz"))) for name, one in places),
         *element_lines(found, units),
         *(text for one in each for text in watched_lines(one)),
-        *(line("failed" if i == 0 else "", fault) for i, fault in enumerate(found.plugin_faults)),
+        *lines_under("failed", found.plugin_faults),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         line("energy residual", f"{shown(found, 'energy_residual')} of input"),
         *([line("vibrations", found.vibrations.sentence())] if found.vibrations else []),

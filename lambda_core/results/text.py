@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import NONE, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
 from lambda_core.results.band_text import band_text, banded, ends, source_lines, temperature_text
 from lambda_core.results.quantity import quantities, remaining, shown
 
@@ -77,7 +77,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         ),
         line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", *_cages(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
-        *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
+        *lines_under("ovality", [_oval(bent, units) for bent in summary.bent]),
         line("pressure", f"p_max {shown(summary, 'max_pressure_GPa', units)}"),
         *_capacitance(summary),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
@@ -86,7 +86,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *other_lines(summary, units),
         *element_lines(summary, units),
         *watched_lines(summary),
-        *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
+        *lines_under("failed", summary.plugin_faults),
         *shoulder_lines(summary.shoulders, units),
         *band_lines(summary.model_band, units),
         line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
@@ -94,7 +94,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
         line("result", summary.file),
-        *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
+        *lines_under("not converged", summary.reasons),
     ]
     return "\n".join(wrapped(lines, width))
 
@@ -138,7 +138,7 @@ def band_lines(band: ModelBand | None, units: UnitSystem = SI) -> list[str]:
     temperatures = temperature_text(band, units)
     return [
         *([line("temperatures", temperatures)] if temperatures else []),
-        *(line("" if i else "model band", text) for i, text in enumerate(source_lines(band))),
+        *lines_under("model band", source_lines(band)),
     ]
 
 
@@ -168,14 +168,13 @@ def _currents(found: Currents | None) -> list[str]:
 
 def watched_lines(summary: Summary | BearingSummary) -> list[str]:
     """Return the numbers of observers, and the events."""
-    lines = [
-        line("observed" if index == 0 else "", f"{each.observer} {each.name} {_four(each.value)} {each.unit}".rstrip())
-        for index, each in enumerate(summary.observed)
+    observed = [f"{each.observer} {each.name} {_four(each.value)} {each.unit}" for each in summary.observed]
+    said = [
+        f"began {event.count} times, first at {_four(event.first_s)} s" if event.count else "did not happen"
+        for event in summary.events
     ]
-    for index, event in enumerate(summary.events):
-        said = "did not happen" if not event.count else f"began {event.count} times, first at {_four(event.first_s)} s"
-        lines.append(line("events" if index == 0 else "", f"{event.event} {said}"))
-    return lines
+    events = [f"{event.event} {words}" for event, words in zip(summary.events, said, strict=True)]
+    return [*lines_under("observed", observed), *lines_under("events", events)]
 
 
 def element_lines(found: Summary, units: UnitSystem = SI) -> list[str]:
@@ -219,7 +218,7 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Seque
     return [
         *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *_step(rating, units),
-        *(line("" if i else "rating life", text) for i, text in enumerate(rated)),
+        *lines_under("rating life", rated),
         *([line("", f"L_10rh by the model band {ends(life_band, 'h', units, named=True)}")] if life_band else []),
         *([line("", life_factor_text(*modified))] if rating.modified_life_h is not None else []),
         line("safety", *(f"{words} {facts[name].number(getattr(rating, name))}" for name, words in safeties)),
@@ -428,11 +427,8 @@ def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -
 def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str]:
     """Return what is beyond a limit, a paragraph each."""
     room = _WIDTH if width is None else max(20, width - HEAD)
-    return [
-        line("WARNING" if i == 0 else "", part)
-        for warning in warnings
-        for i, part in enumerate(textwrap.wrap(warning, room, break_on_hyphens=False))
-    ]
+    each = [textwrap.wrap(warning, room, break_on_hyphens=False) for warning in warnings]
+    return [text for parts in each for text in lines_under("WARNING", parts)]
 
 
 def shoulder_lines(edges: Sequence[Shoulder], units: UnitSystem) -> list[str]:

@@ -135,7 +135,7 @@ def stribeck(
         raise UsageError("speeds of a Stribeck curve must be above zero: the axis is logarithmic")
     if (len(given) or points) < 2:
         raise UsageError("a Stribeck curve needs two speeds or more")
-    model_at = _models(source, changes, bearing, announce)
+    model_at, of_load = _models(source, changes, bearing, announce)
     model = model_at(given[0] if given else SLOWEST)
     fastest = FASTEST_FACTOR / (500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter))
     given = given or np.geomspace(SLOWEST, fastest, points).tolist()
@@ -154,26 +154,27 @@ def stribeck(
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
         note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
-        + (", load of the machine at t = 0" if is_machine(source) else "")
+        + of_load
         + ("" if model.rollers is None else f"; the equilibrium that continues the one at {fastest:.0f} 1/min"),
     )
 
 
 def _models(
     source: Any, changes: tuple[str, ...], bearing: str | None, announce: Callable[[str], None] | None
-) -> Callable[[float], BearingModel]:
+) -> tuple[Callable[[float], BearingModel], str]:
     """Return a function from speed to model.
 
-    The speed is that of the bearing [1/min].
+    The speed is that of the bearing [1/min]. Also return a note about its load: in a machine it stays as it is at the
+    speed of the case, where the loads of a bearing alone are those of its case.
     """
     if is_machine(source):
         from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
-        from lambda_core.analysis.thermal.temperatures import ready_machine_of
+        from lambda_core.analysis.thermal.temperatures import ready
 
-        alone = bearing_alone(ready_machine_of(source, changes, announce), bearing, announce)
-        return lambda speed: at_speed(alone, speed * _RPM)
+        alone = bearing_alone(ready(source, changes, announce), bearing, announce)
+        return (lambda speed: at_speed(alone, speed * _RPM)), ", load of the machine at t = 0"
     refuse_bearing(bearing)
-    return lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)
+    return (lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)), ""
 
 
 def _bands(

@@ -17,6 +17,7 @@ from lambda_core.analysis.electric.voltage_sources import period_of
 from lambda_core.case.electric import Electric, Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.number_text import number
+from lambda_core.domain.wrapping import lines_under
 from lambda_core.model.settings.resolve_electric import assumed
 from lambda_core.results.answer import Answer
 from lambda_core.results.record import INTERFACE, Record
@@ -290,8 +291,8 @@ def outcome_text(found: Outcome) -> str:
         *bearing_lines(found),
         line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
         line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
-        *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(found.limits)),
-        *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+        *lines_under("limits", map(_limit, found.limits)),
+        *lines_under("assumed", found.assumptions),
     ]
     return "\n".join(lines)
 
@@ -438,8 +439,7 @@ def machine_outcome_text(found: MachineOutcome) -> str:
     for name, one in found.bearings.items():
         lines += ["", f"bearing {name}", *bearing_lines(one)]
     limits = next(iter(found.bearings.values())).limits
-    lines += ["", *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(limits))]
-    lines += [line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)]
+    lines += ["", *lines_under("limits", map(_limit, limits)), *lines_under("assumed", found.assumptions)]
     for name, one in found.bearings.items():
         lines += [line("", f"{name}: {text}") for text in one.assumptions if text not in found.assumptions]
     return "\n".join(lines)

@@ -14,6 +14,7 @@ from lambda_core.analysis.electric.current_limits import DENSITY_CLASSES
 from lambda_core.analysis.electric.current_numbers import CurrentNumbers
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.wrapping import lines_under
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import line
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
@@ -199,7 +200,7 @@ def map_text(found: RiskMap) -> str:
             "discharges through the bearing per second (metal: asperities short it; -: no equilibrium)",
             *rows,
             "",
-            *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+            *lines_under("assumed", found.assumptions),
         ]
     )
 

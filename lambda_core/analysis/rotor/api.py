@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.lists import listed
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
@@ -86,15 +85,3 @@ def modes(
         )
     model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
     return modes_of(model, solve_machine(model, announce))
-
-
-def machine_of(source: Source | MachineModel, overrides: Iterable[str] = ()) -> MachineModel:
-    """Return the resolved machine of any accepted source."""
-    from lambda_core.model.machine_model import MachineModel
-    from lambda_core.model.resolve_machine import resolve_machine
-
-    if not isinstance(source, MachineModel):
-        return resolve_machine(source, overrides)
-    if listed(overrides, "overrides"):
-        raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
-    return source

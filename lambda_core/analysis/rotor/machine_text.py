@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
 from lambda_core.results.band_text import band_rows, ends
 from lambda_core.results.bearing_table import COLUMN, band_lines, bearing_table, digits
 from lambda_core.results.bearing_table import HEAD as TABLE_HEAD
@@ -157,7 +157,7 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
         f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind == 'bending' else ''}{_with_bodies(mode.bodies_share)}"
         for mode in found.modes
     ]
-    notes = [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(found.assumptions)]
+    notes = lines_under("assumption", found.assumptions)
     head = [f"{found.case}, {found.speed_rpm:.5g} 1/min", ""]
     # the builder asks for the modes alone
     matrices = [*_table(_MATRICES, found.bearings, units), ""] if found.bearings else []
@@ -217,7 +217,7 @@ def _shaft_lines(report: MachineEquilibrium, units: UnitSystem) -> list[str]:
     lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in report.warned()]
     own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]
     rest = f"and {len(report.assumptions) - len(own)} of the bearings and their laws: lambda-bearing check, --json"
-    return lines + [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate([*own, rest])]
+    return lines + lines_under("assumption", [*own, rest])
 
 
 def _of_bearings(report: MachineEquilibrium) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import counted, number
 from lambda_core.domain.unit_systems import UnitSystem
+from lambda_core.domain.wrapping import lines_under
 from lambda_core.model.settings.machine_heat import is_numbered
 from lambda_core.model.settings.resolve_thermal import SUPPLY
 from lambda_core.results.band_text import ends, source_lines
@@ -238,7 +239,7 @@ def _sources(band: ModelBand | None) -> list[str]:
         return []
     ending = tuple(f"{node} temperature" for node in _EXPLAINED)
     shown = band.model_copy(update={"bands": [one for one in band.bands if one.quantity.endswith(ending)]})
-    return [line("" if i else "model band", text) for i, text in enumerate(source_lines(shown))]
+    return lines_under("model band", source_lines(shown))
 
 
 def _gain_text(gain: LoopGain) -> str:
@@ -261,6 +262,6 @@ def _assumed(found: SteadyTemperatures | TemperaturesOverTime, units: UnitSystem
     They are complete; further lines say where the other assumptions are.
     """
     return [
-        *(line("network" if i == 0 else "", units.sentence(text)) for i, text in enumerate(found.network_assumptions)),
+        *lines_under("network", map(units.sentence, found.network_assumptions)),
         *assumption_lines(found.assumptions),
     ]

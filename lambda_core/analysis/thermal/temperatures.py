@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from lambda_core.analysis.rotor.api import machine_of
-from lambda_core.case.case_io import is_machine, toml_tables
-from lambda_core.model.checking import model_of
+from lambda_core.case.case_io import toml_tables
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.lists import listed
+from lambda_core.model.api import check
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -29,10 +30,11 @@ def loop_of(
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
     from lambda_core.analysis.thermal.operating import BearingLoop
     from lambda_core.case.case_io import parse_case
+    from lambda_core.model.machine_model import MachineModel
 
-    if is_machine(source):
-        return MachineLoop(without_temperatures(machine_of(source, overrides)), announce)  # type: ignore[arg-type]
-    model = model_of(source, overrides)  # type: ignore[arg-type]
+    model = resolved(source, overrides)
+    if isinstance(model, MachineModel):
+        return MachineLoop(without_temperatures(model), announce)
     return BearingLoop(model, model.thermal or parse_case(model.case_toml, model.name).thermal, announce)
 
 
@@ -70,10 +72,18 @@ def _averaged_losses(result: Result, model: BearingModel) -> dict[str, float]:
 def resolved(
     source: Source | BearingModel | MachineModel, overrides: Iterable[str] = (), *, is_static: bool = False
 ) -> BearingModel | MachineModel:
-    """Return the model of a case before temperatures are computed."""
-    if is_machine(source):
-        return machine_of(source, overrides)  # type: ignore[arg-type]
-    return model_of(source, overrides, is_static=is_static)  # type: ignore[arg-type]
+    """Return the model of a case before temperatures are computed.
+
+    UsageError for overrides of a resolved model.
+    """
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
+
+    if not isinstance(source, BearingModel | MachineModel):
+        return check(source, overrides, is_static=is_static)
+    if listed(overrides, "overrides"):
+        raise UsageError("a resolved model takes no overrides: change the case and resolve it")
+    return source
 
 
 def ready(

@@ -142,11 +142,12 @@ def _start_of(result: Result) -> tuple[Any, Any] | None:
 
     They come from its case; the result is None where it cannot be solved any more.
     """
-    from lambda_core.analysis.rotor.api import machine_equilibrium, machine_of
+    from lambda_core.analysis.rotor.api import machine_equilibrium
     from lambda_core.case.case_io import toml_tables
+    from lambda_core.model.resolve_machine import resolve_machine
 
     try:
-        model = machine_of(toml_tables(result.case_toml, result.case))
+        model = resolve_machine(toml_tables(result.case_toml, result.case))
         return model, machine_equilibrium(model)
     except LambdaError as error:
         log.warning("the equilibrium at the start is not shown: %s", error)
