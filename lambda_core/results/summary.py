@@ -41,7 +41,6 @@ from lambda_core.results.machine_numbers import (
 from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.numerical_damping import FOURTH_POWERS, ITERATION_WORK, NumericalDamping, numerical_damping
 from lambda_core.results.observed import observed_numbers, occurred_events
-from lambda_core.results.opening import opened
 from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
@@ -192,6 +191,8 @@ def summarise(result: Result) -> Summary:
 
     The file is of a machine, or of the bearing that the result looks at.
     """
+    from lambda_core.results.opening import opened  # commands that read no result start without h5py
+
     with opened(result.path):  # once for all that is read
         return _summarised(result)
 
