@@ -47,6 +47,7 @@ class FitOrigin(Section):
     parameters: list[FittedValue] = option([], "the fitted values")
     correlation: list[list[float]] = option([], "correlation of the fitted values, in their order")
     measured: list[MeasuredRow] = option([], "measured values; only where the fit was asked to store them")
+    complete: bool = option(True, "false: the fit was interrupted, and bands take the ranges, not its errors")
 
     @model_validator(mode="after")
     def _has_all_correlations(self) -> FitOrigin:
@@ -54,6 +55,11 @@ class FitOrigin(Section):
         if [len(row) for row in self.correlation] != [count] * count:
             raise ValueError(f"correlation needs {count} rows of {count} numbers: one for each of the fitted values")
         return self
+
+
+def finished_fit(fit: FitOrigin | None) -> FitOrigin | None:
+    """Return a fit whose errors hold; None after an interruption."""
+    return fit if fit is not None and fit.complete else None
 
 
 def fit_of_part(fit: object, place: Callable[[str], str]) -> dict[str, Any]:

@@ -35,6 +35,7 @@ from lambda_core.fitting.report import (
     SuggestedPoint,
     known,
 )
+from lambda_core.fitting.residual_tests import misfit
 from lambda_core.fitting.rows import FitProgress, Rows, Watch
 from lambda_core.fitting.sampling import check_count
 from lambda_core.fitting.sampling import sample as sample_posterior
@@ -379,6 +380,11 @@ def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
         warnings.append(
             f"The residuals {what} (p = {first.adjusted:.2g}): a law or a condition is wrong or missing, and fitted "
             "values only compensate for it."
+        )
+    larger = misfit(found.standardised, len(found.free)) if found.data.is_error_known else 0.0
+    if larger and not any(test.name == "scatter" for test in patterns):
+        warnings.append(
+            f"Typical residuals are {larger:.2g} times the errors given: an error, a condition or a law is wrong."
         )
     for index in found.at_limit:
         graded = problem.varied[index]

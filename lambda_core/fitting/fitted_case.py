@@ -84,6 +84,8 @@ def with_fit(case: C, report: FitReport, *, rows: bool = False) -> C:
         "parameters": values,
         "correlation": [[float(f"{value:.6g}") for value in row] for row in report.posterior_correlation],
     }
+    if report.is_interrupted:
+        changes["fit"]["complete"] = False
     if rows:
         changes["fit"]["measured"] = [_row(point, report.condition_quantities) for point in report.points]
     return case.with_(**changes)

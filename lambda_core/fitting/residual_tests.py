@@ -11,6 +11,8 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 
 SIGNIFICANT = 0.05
+_CHANCE = 1e-3  # p-value above which chance may explain large residuals
+_MEDIAN = 0.6745  # of the size of a normal deviate
 
 
 @dataclass(frozen=True)
@@ -118,6 +120,18 @@ def scatter_test(residuals: FloatArray, count: int) -> float:
 
     free = residuals.size - count
     return float(chi2.sf(float(np.sum(residuals**2)), free)) if free > 0 else math.nan
+
+
+def misfit(residuals: FloatArray, count: int) -> float:
+    """Return how many times larger residuals are than errors.
+
+    0 where chance explains it: chi-square with n - p degrees of freedom (p below 0.001), and the median of the
+    residuals' sizes, which single outliers do not raise, over that of a normal distribution.
+    """
+    if not scatter_test(residuals, count) < _CHANCE:
+        return 0.0
+    typical = float(np.median(np.abs(residuals))) / _MEDIAN * math.sqrt(residuals.size / (residuals.size - count))
+    return typical if typical > 1.0 else 0.0
 
 
 def residual_tests(

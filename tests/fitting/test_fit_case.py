@@ -6,6 +6,7 @@ Parameters are found again from values that the case itself predicts.
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ from lambda_core.fitting.operating_points import point_values
 from lambda_core.fitting.parameters import Parameter
 from lambda_core.fitting.problem import CaseProblem
 from lambda_core.fitting.report import SuggestedPoint
+from lambda_core.fitting.residual_tests import misfit
 from lambda_core.fitting.scores import relative
 from lambda_core.fitting.subjects import subject_of
 
@@ -251,7 +253,16 @@ def test_an_early_interruption_keeps_values_with_the_errors_of_their_ranges(
     assert "e1" not in report.text()
     case = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
     assert "best before an interrupted fit to" in case.read_text(encoding="utf-8")
+    assert api.case(case).fit.complete is False  # type: ignore[union-attr]
     api.quasistatic(case, band=True)
+
+
+def test_residuals_far_beyond_their_errors_are_told() -> None:
+    """Tell a misfit of most points, not one outlier."""
+    one = np.array([0.3, -0.5, 0.8, 12.0, -0.2, 0.6])
+    assert misfit(one, 1) == 0.0
+    assert misfit(np.array([0.5, -1.2, 0.9, 1.4]), 1) == 0.0
+    assert misfit(np.array([-21.0, 7.9, 11.0, 9.0]), 1) == pytest.approx(10.0 / 0.6745 * math.sqrt(4 / 3), rel=1e-9)
 
 
 def test_data_that_do_not_determine_a_parameter_have_a_sentence_of_their_own() -> None:

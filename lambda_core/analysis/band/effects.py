@@ -14,6 +14,7 @@ from lambda_core.analysis.band.changed import as_loaded, is_of_laws, resolved_an
 from lambda_core.analysis.band.graded import Exchange, Graded, Resolver, exchanges, graded_parameters, varied
 from lambda_core.analysis.band.readings import POSITIONS, READ, read_values
 from lambda_core.analysis.thermal.losses import model_at
+from lambda_core.case.fitted import finished_fit
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, SolverError, UsageError
 from lambda_core.model.bearing_model import BearingModel
@@ -100,7 +101,7 @@ class Effects:
         self._base = solve(model, self._kernels, phase=POSITIONS[0])
         self.names = tuple(name for name in quantities if self._has(name))
         self._values = self._read(self._base)
-        self._fit = parse_case(model.case_toml, model.name).fit
+        self._fit = finished_fit(parse_case(model.case_toml, model.name).fit)
         fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
         self._without = {*without, *fitted}
         self._kept = {path.split(".")[1] for path in fitted if path.startswith("parameters.")}  # laws of fitted values

@@ -12,6 +12,7 @@ import numpy as np
 from lambda_core.analysis.band.effects import SEEN_STEPS, Effect, range_effect
 from lambda_core.analysis.band.graded import CLEARANCE, Exchange, Graded, exchanges, graded_parameters
 from lambda_core.case.case_io import parse_case
+from lambda_core.case.fitted import finished_fit
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
 from lambda_core.domain.roles import ROLLER_CHOICES, ROLLER_FRICTION
@@ -57,7 +58,7 @@ class RollerEffects:
     def __init__(
         self, model: BearingModel, base: RollerModel, quantities: Sequence[str], without: Iterable[str] = ()
     ) -> None:
-        fit = parse_case(model.case_toml, model.name).fit
+        fit = finished_fit(parse_case(model.case_toml, model.name).fit)
         fitted = [row.path for row in fit.parameters] if fit is not None else []
         self._model, self._base, self.case = model, base, base.name
         self._without = {*without, *fitted}
