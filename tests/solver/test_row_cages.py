@@ -13,7 +13,8 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.export.fmu.frozen import freeze
 from lambda_core.model.long_form import long_form
 from lambda_core.results.reader import Result
 from lambda_core.solver.arrays import bundle as L
@@ -132,3 +133,9 @@ def test_a_resumed_motion_is_the_same_bits() -> None:
 def test_what_cages_per_row_cannot_be(sections: dict[str, Any], words: str) -> None:
     with pytest.raises(CaseError, match=words):
         api.check(two_rows(**sections))
+
+
+def test_an_fmu_has_one_cage() -> None:
+    for model in (api.check(two_rows()), api.check(long_form(two_rows()).tables)):
+        with pytest.raises(UsageError, match="an FMU has one cage in each bearing"):
+            freeze(model, "force")

@@ -15,6 +15,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
+from lambda_core.domain.errors import UsageError
 from lambda_core.export.fmu.circuit_image import Circuit, circuit
 from lambda_core.export.fmu.curves import Constant, constants
 from lambda_core.export.fmu.image import Image, host_words
@@ -188,6 +189,8 @@ def freeze(
         As for :func:`lambda_core.solver.drivers.external_inputs.start` and
         :func:`lambda_core.export.fmu.curves.constants`.
     """
+    if any(one.cage.per_row for one in model.bearing_models.values()):
+        raise UsageError("an FMU has one cage in each bearing: leave out per_row of the cage")
     begun = (_OneBearing if isinstance(model, BearingModel) else _Machine)(model, couple, announce)  # type: ignore[arg-type]
     core, context, memory, scratch = begun.engine.parts()
     memory.control["sample_interval"] = math.inf

@@ -9,7 +9,6 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, SPIN
-from lambda_core.domain.errors import UsageError
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import WORD, Entry
 from lambda_core.model.bearing_model import TimeFunction
@@ -68,8 +67,6 @@ class Start:
 def prepare_start(found: Equilibrium) -> Start:
     """Return what a start from a case's equilibrium needs."""
     context, model = found.context, found.context.model
-    if model.cage.per_row and model.depth.cage:
-        raise UsageError("the FMU of one bearing has one cage: leave out bodies.cage.per_row, or export a machine")
     size, balls = context.size, model.geometry.balls
     tail = size - context.bundle.states.size - context.bundle.active.size
     cage = [(tail + i, int(entry) - L.NS * CAGE) for i, entry in enumerate(context.bundle.active)]
