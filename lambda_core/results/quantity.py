@@ -196,12 +196,18 @@ def remaining(record: Record, placed: Collection[str]) -> list[tuple[Quantity, A
 def _columns(record: Record) -> list[tuple[Quantity, Record]]:
     """Return the numbers with a column.
 
-    Also return their owner, which is the record or its only bearing.
+    Also return their owner, which is the record or its only bearing. A number of some bearings only, null by default,
+    is left out where it is null.
     """
     found = {name: (one, record) for name, one in quantities(type(record)).items()}
     if len(bearings := list(getattr(record, "bearings", {}).values())) == 1:
         found |= {name: (one, bearings[0]) for name, one in quantities(type(bearings[0])).items()}
-    return [(one, owner) for one, owner in found.values() if one.column]
+    return [(one, owner) for one, owner in found.values() if one.column and not _is_absent(one, owner)]
+
+
+def _is_absent(one: Quantity, owner: Record) -> bool:
+    """Tell whether a record does not have a number."""
+    return getattr(owner, one.name) is None and type(owner).model_fields[one.name].default is None
 
 
 def shown(record: Record, name: str, units: UnitSystem = SI) -> str:

@@ -31,7 +31,7 @@ PLACED = frozenset({
     "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
     "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm", "inner_ring_displacement_um",
     "inner_ring_tilt_mrad", "loaded_balls", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
-    "support_power_W",
+    "second_cage_speed_ratio", "support_power_W",
     # of a bearing in the equilibrium of a machine
     "axial_load_N", "basic_life_h", "clearance_um", "contact_angle_deg", "displacement_um", "force_N",
     "misalignment_mrad", "modified_life_h", "modified_reference_life_h", "moment_Nm", "position_mm",

@@ -60,6 +60,16 @@ def test_the_cage_of_the_unloaded_row_lags(ran: Result) -> None:
     assert "second row" in summary.text()
 
 
+def test_one_cage_has_no_line_of_a_second(tmp_path: Path) -> None:
+    """Leave the second cage out of texts and reports.
+
+    Every run had a line "second row" with a dash.
+    """
+    summary = api.run(two_rows(bodies={}, solver={"duration": "1 ms"}), out=tmp_path / "one.h5").summary()
+    assert "second row" not in summary.text()
+    assert summary.second_cage_speed_ratio is None
+
+
 def test_each_cage_is_where_its_row_is(ran: Result) -> None:
     play = 1e-3
     np.testing.assert_allclose(ran["body_position"][:, 2, 0], -0.5 * DISTANCE, atol=play)

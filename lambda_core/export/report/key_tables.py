@@ -23,12 +23,8 @@ if TYPE_CHECKING:
 
 _ROWS = 1000  # of a study's table
 _NOTHING = 1e-9  # a number in the units of the interface below which there is nothing
-
-
 # Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
 _IN_PARTS = ("materials", "forces", "bodies")
-
-
 _CONTACT = "contacts that carry load"
 _UNKNOWN = ("–", "-", "")  # what is written for a value that does not exist
 _LEAST_PART = 5e-4  # of the friction torque that a mechanism has to have
@@ -301,6 +297,7 @@ def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
         _figure(summary, "input_torque_Nmm", units),
         _figure(summary, "cage_speed_ratio", units),
         _figure(summary, "cage_speed_over_epicyclic", units),
+        *_known([_figure(summary, "second_cage_speed_ratio", units)]),
         _figure(summary, "bearing_capacitance_nF", units),
         ("inner ring x, y, z (mean)", position, units.unit("um")),
         (*_figure(summary, "energy_residual", units)[:2], "of input"),
