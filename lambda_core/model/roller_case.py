@@ -30,6 +30,7 @@ from lambda_core.elements.roller.roller_ratings import (
     roller_static_rating,
 )
 from lambda_core.model.bearing_model import BearingModel, ResolvedValue
+from lambda_core.model.bodies.resolve_bodies import ONE_ROW
 from lambda_core.model.bodies.resolve_elastic import bent_rings
 from lambda_core.model.bodies.resolve_materials import (
     is_grease,
@@ -326,7 +327,7 @@ def roller_geometry(
     if is_conical(kind) != (values["contact_angle"] is not None):
         ledger.problem("bearing.rollers.contact_angle", "is required for tapered rollers and not allowed for others")
         return None
-    _refuse_angles_and_play(case, is_conical(kind), ledger)
+    _refuse_options_of_balls(case, is_conical(kind), ledger)
     number = {name: float(value or 0.0) for name, value in values.items()}
     length = number["roller_length"] or number["effective_length"] + 2.0 * _SHORTER * number["roller_diameter"]
     shape: dict[str, Any] = {
@@ -372,7 +373,7 @@ def roller_geometry(
         return None
 
 
-def _refuse_angles_and_play(case: Case, conical: bool, ledger: Ledger) -> None:
+def _refuse_options_of_balls(case: Case, conical: bool, ledger: Ledger) -> None:
     """Refuse options of balls and a tapered bearing's clearance."""
     bearing = case.bearing
     if bearing.contact_angle is not None:
@@ -386,6 +387,8 @@ def _refuse_angles_and_play(case: Case, conical: bool, ledger: Ledger) -> None:
             "bearing.clearance",
             "a tapered roller bearing has none before it is mounted: its load closes it; leave it out",
         )
+    if case.bodies.cage.per_row:
+        ledger.problem("bodies.cage.per_row", ONE_ROW)
 
 
 def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledger) -> float | None:

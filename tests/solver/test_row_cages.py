@@ -149,3 +149,14 @@ def test_an_fmu_has_one_cage() -> None:
     for model in (api.check(two_rows()), api.check(long_form(two_rows()).tables)):
         with pytest.raises(UsageError, match="an FMU has one cage in each bearing"):
             freeze(model, "force")
+
+
+def test_rollers_at_rest_have_no_cage_per_row() -> None:
+    """Refuse it at an operating point as for a run."""
+    case = two_rows(
+        bearing={"designation": "SKF NU 208 ECP"}, loads={"radial": "1 kN"}, bodies={"cage": {"per_row": True}}
+    )
+    for question in (api.check, api.quasistatic):
+        with pytest.raises(CaseError, match="this one has one row") as caught:
+            question(case)
+        assert str(caught.value).count("per_row") == 1

@@ -18,6 +18,7 @@ from lambda_core.model.laws.time_functions import added, scaled, time_function
 from lambda_core.model.ledger import Ledger
 
 LEAST_SHARE = 1e-6  # of what the geometry of a body has; with less it would follow noise
+ONE_ROW = "is for bearings of two rows; this one has one row: leave it out"  # what a cage per row cannot be for
 MOST_MASS = 1e9  # [kg] of one body; the heaviest rotors ever turned weigh 1e6 kg
 Vector = tuple[TimeFunction, TimeFunction, TimeFunction]
 
@@ -176,7 +177,7 @@ def resolve_cage(
 def _check_cage_per_row(spec: CageBody, geometry: Geometry, ledger: Ledger) -> None:
     """Refuse cages per row where they cannot be."""
     if geometry.rows == 1:
-        ledger.problem("bodies.cage.per_row", "is for bearings of two rows; this one has one row: leave it out")
+        ledger.problem("bodies.cage.per_row", ONE_ROW)
     if spec.x.stiffness or spec.x.damping:
         ledger.problem("bodies.cage.x", "of a cage per row is free, locked or a motion; a spring has no rest there")
 
