@@ -60,8 +60,9 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
         *_declared(summary, ("trust",), units),
         ("wall time", f"{summary.wall_s:.2f}", f"s for {summary.simulated_s:.4g} s"),
     ]
+    width = max(_LABEL, *(len(label) + 2 for label, *_ in rows))
     for label, value, unit in rows:
-        text.append(f"{label:<{_LABEL}}", style="dim").append(value).append(f" {unit}\n", style="dim")
+        text.append(f"{label:<{width}}", style="dim").append(value).append(f" {unit}\n", style="dim")
     if summary.assumptions:
         text.append("\nassumed\n", style="dim")
         for assumption in summary.assumptions:

@@ -22,3 +22,5 @@ def test_a_torque_with_a_model_band_has_the_digits_that_the_band_leaves(tmp_path
     for name in ("friction torque", "power loss"):
         (line,) = [row for row in other.splitlines() if row.startswith(name) and "(model" in row]
         assert "±" not in line
+    for label in ("static safety C0/P0", "viscosity ratio kappa", "cage over inner ring"):  # wider than the others
+        assert f"\n{label}  " in one
