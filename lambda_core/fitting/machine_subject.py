@@ -32,7 +32,7 @@ from lambda_core.studies.job import point_model, shared_kernels
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.studies.machine_responses import MachinePoint
+    from lambda_core.studies.points import MachinePoint
 
 _SHARED = ("speed", "oil temperature", "oil level")  # conditions that are those of all bearings
 _MODES = 8
@@ -274,10 +274,10 @@ def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
     The last points are kept, as several quantities are read from one.
     """
     from lambda_core.analysis.thermal.temperatures import ready_machine_of
-    from lambda_core.studies.machine_responses import machine_point
+    from lambda_core.studies.points import MachinePoint
 
     model: MachineModel = ready_machine_of(point_model(case_toml, changes))  # type: ignore[arg-type]
-    return machine_point(model, shared_kernels())
+    return MachinePoint(model, shared_kernels())
 
 
 def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
@@ -307,7 +307,7 @@ def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
     own = f"{bearing}.{response}" if bearing else response
     read = responses_of(point.model)[own].static
     assert read is not None
-    return read(point)  # type: ignore[arg-type]
+    return read(point)
 
 
 def _mode(point: MachinePoint, bearing: str, which: str, kind: str = "") -> float | None:

@@ -401,7 +401,7 @@ def _tables(path: Path) -> dict[str, Any]:
 def _solved(case: Case | MachineCase, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
     """Solve a phase."""
     point = static_point(ready(apply_overrides(case, changes), announce=announce, is_static=True), announce)
-    return SolvedPhase(point.speed_rpm, point.rated, point.warnings)
+    return SolvedPhase(point.speed_rpm, point.answer.each, point.model.warnings)
 
 
 def _written(value: bool | int | float | str) -> str:

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
     from lambda_core.solver.drivers.machine_statics import SharedKernels
-    from lambda_core.studies.machine_responses import MachinePoint
-    from lambda_core.studies.responses import StaticPoint
+    from lambda_core.studies.points import AlonePoint, MachinePoint, StaticPoint
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -177,7 +176,7 @@ def kernels_of(model: BearingModel) -> Kernels:
     return shared_kernels().of(model)
 
 
-def static_point(model: BearingModel | MachineModel, announce: Announce = None) -> StaticPoint | MachinePoint:
+def static_point(model: BearingModel | MachineModel, announce: Announce = None) -> AlonePoint | MachinePoint:
     """Solve a bearing or a machine at a point.
 
     Raises
@@ -185,13 +184,9 @@ def static_point(model: BearingModel | MachineModel, announce: Announce = None) 
     SolverError
         When there is no solution.
     """
-    from lambda_core.model.machine_model import MachineModel
-    from lambda_core.studies.machine_responses import machine_point
-    from lambda_core.studies.responses import bearing_point
+    from lambda_core.studies.points import solved_point
 
-    if isinstance(model, MachineModel):
-        return machine_point(model, shared_kernels(), announce)
-    return bearing_point(model, shared_kernels(), announce)
+    return solved_point(model, shared_kernels(), announce)
 
 
 def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) -> dict[str, float | None]:
@@ -206,7 +201,7 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
 
 
 def values_of(
-    point: StaticPoint | MachinePoint, model: BearingModel | MachineModel, names: tuple[str, ...]
+    point: StaticPoint, model: BearingModel | MachineModel, names: tuple[str, ...]
 ) -> dict[str, float | None]:
     """Return the responses of a solved point.
 
@@ -226,7 +221,8 @@ def _dynamic(
     It goes on with an existing part of the run.
     """
     from lambda_core.results.opening import BeingWrittenError
-    from lambda_core.studies.responses import DynamicPoint, evaluate, method_rows_among, responses_of
+    from lambda_core.studies.points import DynamicPoint
+    from lambda_core.studies.responses import evaluate, method_rows_among, responses_of
 
     try:
         result = _run(model, path)

@@ -17,7 +17,7 @@ from lambda_core.results.convergence import window_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
-    from lambda_core.studies.responses import DynamicPoint, StaticPoint
+    from lambda_core.studies.points import BearingPoint, DynamicPoint
 
 _INNER = RINGS.index("inner")
 _BINS = 72  # over azimuth: 5 degrees each
@@ -26,35 +26,35 @@ _BINS = 72  # over azimuth: 5 degrees each
 # -- quasi-static --
 
 
-def _contacts(point: StaticPoint, name: str) -> FloatArray:
+def _contacts(point: BearingPoint, name: str) -> FloatArray:
     from lambda_core.solver.records import CONTACT_CHANNELS
 
     found: FloatArray = point.equilibrium.contacts[:, :, CONTACT_CHANNELS.index(name)]
     return found
 
 
-def _under_load(point: StaticPoint, name: str) -> FloatArray:
+def _under_load(point: BearingPoint, name: str) -> FloatArray:
     load = _contacts(point, "load")
     found: FloatArray = _contacts(point, name)[load > CARRYING * load.max()]
     return found
 
 
-def static_power(point: StaticPoint) -> float:
+def static_power(point: BearingPoint) -> float:
     """Return the power of all contacts [W]."""
     return float(point.equilibrium.losses.sum())
 
 
-def static_film(point: StaticPoint) -> float:
+def static_film(point: BearingPoint) -> float:
     """Return the smallest film of the loaded contacts [um]."""
     return 1e6 * float(_under_load(point, "film_minimum").min())
 
 
-def static_lambda(point: StaticPoint) -> float:
+def static_lambda(point: BearingPoint) -> float:
     """Return the smallest Lambda under load."""
     return float(_under_load(point, "film_parameter").min())
 
 
-def static_capacitance(point: StaticPoint) -> float:
+def static_capacitance(point: BearingPoint) -> float:
     """Return the capacitance of the balls [nF].
 
     It is infinite where asperities short a ball.

@@ -8,11 +8,12 @@ run. Of a machine each has the name of the bearing in front ("left.sliding-wear/
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.model.laws.state_channels import state_channels
-from lambda_core.studies.responses import DynamicPoint, Number, Response
+from lambda_core.studies.points import DynamicPoint
+from lambda_core.studies.responses import Number, Response
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -26,19 +27,12 @@ Read = Callable[[DynamicPoint], Number]
 
 def observed_responses(model: BearingModel | MachineModel) -> dict[str, Response]:
     """Return the responses of observers, events and states, by name."""
-    found = {}
-    for bearing, own in model.bearing_models.items():
-        for one in _of_bearing(own).values():
-            assert one.dynamic is not None
-            named = one
-            if bearing:
-                dynamic, meaning = _inside(bearing, one.dynamic), f"{bearing}: {one.meaning}"
-                named = Response(f"{bearing}.{one.name}", one.unit, meaning, dynamic=dynamic)
-            found[named.name] = named
-    return found
+    each = model.bearing_models.items()
+    found = [one.in_bearing(bearing) for bearing, own in each for one in _of_bearing(own)]
+    return {one.name: one for one in found}
 
 
-def _of_bearing(model: BearingModel) -> dict[str, Response]:
+def _of_bearing(model: BearingModel) -> list[Response]:
     found: list[Response] = []
     for state in state_channels(model):
         about = f"{state.name.replace('_', ' ')}, {state.meaning}: largest of all contacts"
@@ -54,11 +48,7 @@ def _of_bearing(model: BearingModel) -> dict[str, Response]:
         for number in observer.item.numbers:
             read = _observed(name, number.name)
             found.append(Response(f"{name}/{number.name}", units[number.channel], number.meaning, dynamic=read))
-    return {one.name: one for one in found}
-
-
-def _inside(bearing: str, read: Read) -> Callable[[Any], Number]:
-    return lambda point: read(DynamicPoint(point.result.bearings[bearing], point.summary.bearings[bearing]))
+    return found
 
 
 def _observed(observer: str, number: str) -> Read:

@@ -4,6 +4,10 @@ Names are those of the machine interface (:class:`~lambda_core.results.summary.S
 :class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for
 all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total"). Observers, events and
 states of contacts add their own (:mod:`~lambda_core.studies.observed_responses`).
+
+Every bearing of a machine has the responses of one that is alone, with its name before them ("left.min_film_um",
+"left.skf/friction/total"). The machine and the places of its bearings have further ones. Bearing currents are those of
+the machine's circuit with all its bearings.
 """
 
 from __future__ import annotations
@@ -11,36 +15,28 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.analysis.electric.current_numbers import (
-    UNITS,
-    CurrentNumbers,
-    circuit_numbers,
-    meaning,
-    run_numbers,
-    static_numbers,
-)
+import numpy as np
+
+from lambda_core.analysis.electric.current_numbers import UNITS, meaning
+from lambda_core.analysis.rotor.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import CaseError, Problem, nearest, unknown_name
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.quantity import quantities
-from lambda_core.results.quasistatic import BearingStatics, QuasiStatic
+from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
 from lambda_core.studies import measures
+from lambda_core.studies.points import DynamicPoint
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
-    from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.machine_statics import SharedKernels
-    from lambda_core.studies.machine_responses import MachinePoint
-    from lambda_core.studies.method_columns import Columns
+    from lambda_core.studies.points import StaticPoint
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"
@@ -50,108 +46,32 @@ RATED = (
 )  # fmt: skip
 
 
-@dataclass
-class StaticPoint:
-    """Quasi-static point of a bearing.
-
-    It holds the equilibrium, the same in the words of the machine interface, and its compiled laws.
-    """
-
-    equilibrium: Equilibrium
-    summary: QuasiStatic
-    kernels: Kernels
-
-    @cached_property
-    def currents(self) -> CurrentNumbers:
-        """Bearing currents on quasi-static films."""
-        return static_numbers(self.equilibrium, self.kernels)
-
-    @cached_property
-    def rating(self) -> Rating:
-        """Lives and safety."""
-        from lambda_core.analysis.rating.engineering import rating_of
-        from lambda_core.discovery.api import registry
-
-        return rating_of(self.equilibrium, registry().methods)
-
-    @property
-    def each(self) -> list[Equilibrium]:
-        """Equilibria of all bearings: of this one."""
-        return [self.equilibrium]
-
-    @property
-    def speed_rpm(self) -> float:
-        """Speed of the rings against each other [1/min]."""
-        return self.equilibrium.relative_speed * 30.0 / math.pi
-
-    @cached_property
-    def rated(self) -> Mapping[str, BearingStatics]:
-        """The bearing with its rating, by its name."""
-        from lambda_core.results.quasistatic import quasistatic_of
-
-        return quasistatic_of(self.equilibrium, self.rating).each
-
-    @property
-    def warnings(self) -> list[str]:
-        """No warnings: only parts of machines can conflict."""
-        return []
-
-    def columns(self, names: Sequence[str]) -> Columns:
-        """Return the rows of comparison methods among names."""
-        from lambda_core.studies.method_columns import method_columns
-
-        return method_columns(self.equilibrium, names)
-
-
-def bearing_point(model: BearingModel, kernels: SharedKernels, announce: Announce = None) -> StaticPoint:
-    """Solve a bearing for a point of a study."""
-    from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.solver.drivers.equilibrium import solve
-
-    own = kernels.of(model, announce)
-    found = solve(model, own, announce)
-    return StaticPoint(found, quasistatic_of(found), own)
-
-
-@dataclass
-class DynamicPoint:
-    """A dynamic point: the result file and its summary."""
-
-    result: Result
-    summary: Summary
-
-    @property
-    def rating(self) -> Rating | None:
-        """Lives and safety at the start."""
-        found: Rating | None = self.summary.rating
-        return found
-
-    @cached_property
-    def currents(self) -> CurrentNumbers:
-        """Bearing currents on the films of the run."""
-        return run_numbers(self.result)
-
-    @cached_property
-    def circuit(self) -> Mapping[str, CurrentNumbers]:
-        """Bearing currents on the films of a run.
-
-        Each bearing of a machine has its own.
-        """
-        return circuit_numbers(self.result)
-
-
 @dataclass(frozen=True)
 class Response:
     """One number of a point.
 
-    A mode that does not have it has None.
+    It is read from a bearing of a point, or from the whole point. A mode that does not have it has None.
     """
 
     name: str
     unit: str
     meaning: str
-    static: Callable[[StaticPoint], Number] | None = None
+    static: Callable[[Any], Number] | None = None
     dynamic: Callable[[DynamicPoint], Number] | None = None
+
+    def in_bearing(self, name: str) -> Response:
+        """Return a bearing's response as one of the whole point.
+
+        A bearing that is alone has the empty name.
+        """
+        static, dynamic = _in_bearing(name, self.static), _in_bearing(name, self.dynamic)
+        if not name:
+            return replace(self, static=static, dynamic=dynamic)
+        return Response(f"{name}.{self.name}", self.unit, f"{name}: {self.meaning}", static, dynamic)
+
+
+def _in_bearing(name: str, read: Callable[[Any], Number] | None) -> Callable[[Any], Number] | None:
+    return None if read is None else lambda point: read(point.bearing(name))
 
 
 def _field(name: str, index: int | None = None) -> Callable[[Any], Number]:
@@ -254,6 +174,9 @@ def _currents() -> list[Response]:
     return [Response(name, unit, meaning(name), _current(name), _current(name)) for name, unit in UNITS.items()]
 
 
+_CONVERGED = Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged))
+
+
 def _catalogue() -> dict[str, Response]:
     found = [
         *_fields(),
@@ -262,7 +185,7 @@ def _catalogue() -> dict[str, Response]:
         Response(
             "min_film_parameter", "", "smallest Lambda under load", measures.static_lambda, measures.dynamic_lambda
         ),
-        Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
+        _CONVERGED,
         Response(
             "cage_speed_deviation", "", "standard deviation of the cage speed over its mean", None,
             measures.cage_speed_deviation,
@@ -277,7 +200,7 @@ def _catalogue() -> dict[str, Response]:
     return {response.name: response for response in found}
 
 
-RESPONSES: Mapping[str, Response] = _catalogue()
+RESPONSES: Mapping[str, Response] = _catalogue()  # of a bearing
 USUAL: Mapping[str, tuple[str, ...]] = {
     "quasi-static": (
         "friction_torque_Nmm", BREAKDOWN, "max_load_N", "max_pressure_GPa", "min_film_um", "min_film_parameter",
@@ -287,6 +210,88 @@ USUAL: Mapping[str, tuple[str, ...]] = {
         "min_film_um", "energy_residual", "converged",
     ),
 }  # fmt: skip
+# Of a machine, and of each of its bearings.
+_USUAL_OF_MACHINE: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "quasi-static": (
+        ("system_life_h", "friction_torque_Nmm"),
+        ("radial_load_N", "reference_life_h", "friction_torque_Nmm", "max_pressure_GPa", "min_film_parameter"),
+    ),
+    "dynamic": (
+        ("friction_torque_Nmm", "energy_residual", "converged"),
+        ("friction_torque_Nmm", "friction_torque_ci_Nmm", "max_pressure_GPa", "min_film_um"),
+    ),
+}
+
+
+# -- machines --
+
+
+def _of_machine() -> Iterator[Response]:
+    still = quantities(MachineEquilibrium)
+    for one in of_fields(Summary, quantities(Summary)):
+        read = _field(one.name)
+        static = _power if one.name == "power_loss_W" else read if one.name in still else None
+        yield replace(one, static=static, dynamic=read)
+    yield Response("max_deflection_um", "um", "largest deflection of the shaft across its axis", _deflection)
+    yield Response("first_critical_speed_rpm", "rpm", "first critical speed", _critical)
+    yield _CONVERGED
+
+
+def _power(point: Any) -> Number:
+    return float(sum(found.losses.sum() for found in point.equilibria))
+
+
+def _deflection(point: Any) -> Number:
+    return float(np.hypot(*np.array(point.summary.deflection_um).T[1:]).max())
+
+
+def _critical(point: Any) -> Number:
+    found = point.modes.critical_speeds
+    return found[0].speed_rpm if found else None
+
+
+def _of_mounted() -> Iterator[Response]:
+    """Yield what only a bearing in a machine has."""
+    for one in of_fields(
+        BearingEquilibrium, (name for name in quantities(BearingEquilibrium) if name not in RESPONSES)
+    ):
+        yield replace(one, static=_mounted(one.name))
+    for index, axis in enumerate("xyz"):
+        yield Response(f"stiffness_N_per_um.{axis}", "N/um", f"stiffness {axis}", _stiffness(index))
+
+
+def _mounted(path: str) -> Callable[[Any], Number]:
+    key, _, axis = path.partition(".")
+    axes = quantities(BearingEquilibrium)[key].axes
+
+    def read(point: Any) -> Number:
+        value: Any = getattr(point.mounted, key)
+        if axis:
+            value = value[axes.index(axis)]
+        return None if value is None else float(value)
+
+    return read
+
+
+def _stiffness(index: int) -> Callable[[Any], Number]:
+    return lambda point: 1e-6 * float(point.mounted.stiffness[index][index])
+
+
+@lru_cache(maxsize=8)
+def responses_in(bearings: tuple[str, ...]) -> Mapping[str, Response]:
+    """Return the responses of a point.
+
+    `bearings` are the names in a machine; the empty name is that of a bearing alone.
+    """
+    found = []
+    if any(bearings):
+        once = {"converged", *quantities(Summary)} - set(quantities(BearingSummary))
+        own = [*_of_mounted(), *(one for one in RESPONSES.values() if one.name not in once)]
+        found += _of_machine()
+    else:
+        own = list(RESPONSES.values())
+    found += [one.in_bearing(name) for name in bearings for one in own]
+    return {response.name: response for response in found}
 
 
 def asks_currents(names: Sequence[str]) -> bool:
@@ -307,11 +312,9 @@ def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
 
     The model is of a bearing or a machine; its observers, events and states have responses, too.
     """
-    from lambda_core.studies.machine_responses import machine_responses
     from lambda_core.studies.observed_responses import observed_responses
 
-    bearings = bearing_names(model)
-    return {**(machine_responses(bearings) if bearings else RESPONSES), **observed_responses(model)}
+    return {**responses_in(tuple(model.bearing_models)), **observed_responses(model)}
 
 
 def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:
@@ -374,9 +377,8 @@ def _usual(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
     """Return what is asked where nothing is named."""
     if not bearings:
         return USUAL[mode]
-    from lambda_core.studies.machine_responses import usual_responses
-
-    return usual_responses(bearings, mode)
+    once, each = _USUAL_OF_MACHINE[mode]
+    return (*once, *(f"{name}.{one}" for name in bearings for one in each))
 
 
 def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
@@ -384,7 +386,7 @@ def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
 
 
 def evaluate(
-    names: Sequence[str], point: StaticPoint | MachinePoint | DynamicPoint, methods: Mapping[str, Number],
+    names: Sequence[str], point: StaticPoint | DynamicPoint, methods: Mapping[str, Number],
     known: Mapping[str, Response],
 ) -> dict[str, Number]:  # fmt: skip
     """Return the responses of a point.

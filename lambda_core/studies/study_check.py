@@ -307,7 +307,7 @@ def _probe(
     run = estimate_run(warm, announce)
     if run.processor_s is None or run.simulated_s is None:
         return math.nan, columns, math.nan
-    each = zip(warm.bearing_models.values(), point.each, strict=True)
+    each = zip(warm.bearing_models.values(), point.equilibria, strict=True)
     size = sum(_file_size(one, run.simulated_s, found.orbit) for one, found in each)
     return seconds + run.processor_s, columns, size
 

@@ -98,9 +98,9 @@ def test_runs_of_a_machine_are_points(box: Path, tmp_path: Path) -> None:
 
     Responses are the numbers of its summary, of the machine and of a bearing.
     """
-    from lambda_core.studies.machine_responses import machine_responses
+    from lambda_core.studies.responses import responses_in
 
-    names = [name for name, one in machine_responses(("left", "right")).items() if one.dynamic is not None]
+    names = [name for name, one in responses_in(("left", "right")).items() if one.dynamic is not None]
     study = {
         "name": "runs", "case": str(box), "mode": "dynamic", "responses": names,
         "set": {"solver.duration": "2 ms"},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,11 +13,10 @@ from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.simulation import Simulation
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
-    from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
-    from lambda_core.solver.drivers.machine_statics import MachineState
 
 PHASES = 3  # equilibria per ball pitch: a map has many points
 
@@ -97,70 +96,44 @@ def numbers_of(simulation: Simulation) -> CurrentNumbers:
     )
 
 
-def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
-    """Compute a circuit on quasi-static films.
-
-    The balls take three positions; `found` is the first of them.
+def static_numbers(
+    model: BearingModel | MachineModel, solved: Sequence[list[Equilibrium]]
+) -> dict[str, CurrentNumbers]:
+    """Compute the circuit of a model on quasi-static films.
 
     A case without the section electric gets its defaults, and ten turns of the cage without a duration.
+
+    Parameters
+    ----------
+    solved : sequence of list of Equilibrium
+        Of each bearing, at PHASES positions of its balls.
+
+    Returns
+    -------
+    dict of str to CurrentNumbers
+        Of each bearing by its name in results.
 
     Raises
     ------
     SolverError
-        When there is no equilibrium at another position, or the circuit cannot be solved.
+        When the circuit cannot be solved.
     """
     from lambda_core.analysis.electric.case_or_run import electric_of_equilibria
     from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
-    from lambda_core.solver.drivers.equilibrium import solve
 
-    model = found.context.model
-    others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
-    return numbers_of(electric_of_equilibria(circuit_bearings(model), [[found, *others]]).first)
+    found = electric_of_equilibria(circuit_bearings(model), solved)
+    return {name: numbers_of(one) for name, one in found.bearings.items()}
 
 
-def machine_numbers(
-    machine: MachineModel, state: MachineState, kernels: Sequence[Kernels]
-) -> dict[str, CurrentNumbers]:
-    """Compute the circuit of a machine's bearings.
+def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
+    """Compute the circuit of a run on samples.
 
-    All bearings have quasi-static films at three positions of the balls.
-
-    Parameters
-    ----------
-    state : MachineState
-        The equilibrium of the machine.
-    kernels : sequence of Kernels
-        Compiled laws of each bearing.
+    The samples begin where averages begin.
 
     Returns
     -------
     dict of str to CurrentNumbers
         Of each bearing by its name.
-    """
-    from lambda_core.analysis.electric.case_or_run import electric_of_equilibria, held_bearings
-    from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
-    from lambda_core.analysis.electric.contacts import equilibria
-
-    each = zip(held_bearings(machine, state), kernels, strict=True)
-    solved = [equilibria(one, PHASES, kernels=own) for one, own in each]
-    found = electric_of_equilibria(circuit_bearings(machine), solved)
-    return {name: numbers_of(one) for name, one in found.bearings.items()}
-
-
-def circuit_numbers(result: Result) -> dict[str, CurrentNumbers]:
-    """Compute the circuit of a machine's run.
-
-    It works as :func:`run_numbers`, with each bearing by its name.
-    """
-    from lambda_core.analysis.electric.case_or_run import circuit_of_run
-
-    return {name: numbers_of(one) for name, one in circuit_of_run(result).bearings.items()}
-
-
-def run_numbers(result: Result) -> CurrentNumbers:
-    """Compute the circuit of a run on samples.
-
-    The samples begin where averages begin.
 
     Raises
     ------
@@ -169,6 +142,6 @@ def run_numbers(result: Result) -> CurrentNumbers:
     SolverError
         When the circuit cannot be solved.
     """
-    from lambda_core.analysis.electric.case_or_run import electric_of_run
+    from lambda_core.analysis.electric.case_or_run import circuit_of_run
 
-    return numbers_of(electric_of_run(result))
+    return {name: numbers_of(one) for name, one in circuit_of_run(result).bearings.items()}
