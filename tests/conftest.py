@@ -83,7 +83,8 @@ def pytest_collection_finish() -> None:
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Put the longest files first."""
-    known = {} if config.cache is None else config.cache.get(DURATIONS, {})
+    cache = getattr(config, "cache", None)  # there is none with -p no:cacheprovider
+    known = {} if cache is None else cache.get(DURATIONS, {})
     seconds: Counter[Path] = Counter()
     for item in items:
         seconds[item.path] += known.get(item.nodeid, 0.0)
@@ -98,11 +99,12 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
     every worker would take longer than the tests.
     """
     root = tmp_path_factory.mktemp("lambda-bearing")
-    assert request.config.cache is not None
+    cache = getattr(request.config, "cache", None)
+    folder = root.joinpath if cache is None else cache.mkdir
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("LAMBDA_BEARING_CACHE", str(request.config.cache.mkdir("lambda-bearing")))
+        patch.setenv("LAMBDA_BEARING_CACHE", str(folder("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
-        patch.setenv("MPLCONFIGDIR", str(request.config.cache.mkdir("matplotlib")))  # the list of this machine's fonts
+        patch.setenv("MPLCONFIGDIR", str(folder("matplotlib")))  # the list of this machine's fonts
         yield root
 
 

@@ -65,7 +65,7 @@ class Record:
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         """Keep the times for the next run."""
-        cache = session.config.cache
+        cache = getattr(session.config, "cache", None)
         if cache is not None:
             known = cache.get(DURATIONS, {})
             cache.set(DURATIONS, known | {name: round(took, 2) for name, took in self.seconds.items()})
