@@ -1,4 +1,4 @@
-"""Solve a point of a study, and read a run that is one.
+"""Solve points of studies and read runs.
 
 A bearing that is alone has the empty name; those of a machine have names.
 """
@@ -104,14 +104,14 @@ class BearingPoint:
 
     Attributes
     ----------
-    whole : StaticPoint
+    point : StaticPoint
         The point that it belongs to.
     name : str
         "" for a bearing that is alone.
     equilibrium : Equilibrium
     """
 
-    whole: StaticPoint
+    point: StaticPoint
     name: str
     equilibrium: Equilibrium
 
@@ -123,18 +123,18 @@ class BearingPoint:
     @property
     def currents(self) -> CurrentNumbers:
         """Bearing currents on quasi-static films."""
-        return self.whole.circuit[self.name or ALONE]
+        return self.point.circuit[self.name or ALONE]
 
     @property
     def rating(self) -> Rating | None:
         """Lives and safety."""
-        return self.whole.rating(self.name)
+        return self.point.rating(self.name)
 
     @property
     def mounted(self) -> BearingEquilibrium:
         """The bearing at its place in a machine."""
-        assert isinstance(self.whole, MachinePoint)
-        return self.whole.summary.bearing(self.name)
+        assert isinstance(self.point, MachinePoint)
+        return self.point.summary.bearing(self.name)
 
 
 class AlonePoint(StaticPoint):
@@ -259,7 +259,7 @@ class MachinePoint(StaticPoint):
 def solved_point(
     model: BearingModel | MachineModel, kernels: SharedKernels, announce: Announce = None
 ) -> AlonePoint | MachinePoint:
-    """Solve a bearing or a machine for a point of a study.
+    """Solve a bearing or a machine for a study.
 
     SolverError when there is no equilibrium.
     """
@@ -276,13 +276,13 @@ class DynamicPoint:
     result : Result
     summary : Summary or BearingSummary
         Of the run; of a bearing of a machine its own.
-    whole : DynamicPoint or None
+    machine : DynamicPoint or None
         The run of the machine that it belongs to.
     """
 
     result: Result
     summary: Summary | BearingSummary
-    whole: DynamicPoint | None = None
+    machine: DynamicPoint | None = None
 
     @property
     def rating(self) -> Rating | None:
@@ -293,7 +293,7 @@ class DynamicPoint:
     @property
     def currents(self) -> CurrentNumbers:
         """Bearing currents on the films of the run."""
-        return (self.whole or self).circuit[self.result.bearing]
+        return (self.machine or self).circuit[self.result.bearing]
 
     @cached_property
     def circuit(self) -> Mapping[str, CurrentNumbers]:

@@ -283,7 +283,7 @@ def responses_in(bearings: tuple[str, ...]) -> Mapping[str, Response]:
 
     `bearings` are the names in a machine; the empty name is that of a bearing alone.
     """
-    found = []
+    found: list[Response] = []
     if any(bearings):
         once = {"converged", *quantities(Summary)} - set(quantities(BearingSummary))
         own = [*_of_mounted(), *(one for one in RESPONSES.values() if one.name not in once)]
