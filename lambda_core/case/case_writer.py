@@ -19,7 +19,7 @@ from tomlkit.toml_document import TOMLDocument
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case_io import read_case, toml_tables
 from lambda_core.case.electric import Series
-from lambda_core.case.machine import Housing, MachineCase, Shaft
+from lambda_core.case.machine import Housing, Shaft
 from lambda_core.case.signals import Table as TimeTableFile
 from lambda_core.case.written import Written, validate
 from lambda_core.domain.errors import CaseError, UsageError
@@ -59,21 +59,15 @@ def case_toml(case: Written, original: str | None = None, folder: Path | None = 
 
 
 def standalone_toml(case: Written) -> str:
-    """Write a case for any folder.
+    """Write a case for any folder."""
+    return _fresh(standalone(case))
 
-    CSV tables become points in the text, paths of reduced models absolute.
+
+def standalone(case: Written) -> dict[str, Any]:
+    """Return tables that are read from any folder.
+
+    CSV tables become points, paths of reduced models absolute.
     """
-    return _fresh(_standalone(case))
-
-
-def machine_toml(case: MachineCase, tables: Mapping[str, Any]) -> str:
-    """Write tables of a machine, for any folder."""
-    found = _standalone(case)
-    return tables_toml(tables if found == case.written() else found)
-
-
-def _standalone(case: Written) -> dict[str, Any]:
-    """Return tables that are read from any folder."""
 
     def change(section: Any, written: Any) -> Any:
         if isinstance(section, TimeTableFile | Series) and section.file is not None:

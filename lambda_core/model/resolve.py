@@ -15,7 +15,7 @@ from typing import Any, Protocol
 from pydantic import BaseModel
 
 from lambda_core.case.case import Case
-from lambda_core.case.case_writer import standalone_toml
+from lambda_core.case.case_writer import standalone
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
 from lambda_core.domain.elements import BODIES, RACEWAYS
 from lambda_core.domain.errors import Problem
@@ -58,7 +58,7 @@ from lambda_core.model.geometry.resolve_designation import resolve_designation
 from lambda_core.model.geometry.resolve_geometry import resolve_geometry, with_clearance
 from lambda_core.model.geometry.shadowed_data import tell_shadows
 from lambda_core.model.laws.interpolation import say_overshoot
-from lambda_core.model.laws.law_packages import law_called, with_packages
+from lambda_core.model.laws.law_packages import law_called, packaged_toml
 from lambda_core.model.laws.resolve_laws import LawResolver, ModelSource
 from lambda_core.model.laws.resolve_links import resolve_links, resolve_markers
 from lambda_core.model.laws.resolve_states import check_states
@@ -122,7 +122,7 @@ def resolve(
         )
         if place is str:
             check_roller_fit(case, model)
-        return dataclasses.replace(model, case_toml=standalone_toml(with_packages(case, registry)))
+        return dataclasses.replace(model, case_toml=packaged_toml(standalone(case), registry))
     ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
     row, designation, case = resolve_designation(written, catalogue, ledger)
     known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
@@ -201,7 +201,7 @@ def resolve(
         output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
-        case_toml=standalone_toml(with_packages(written, registry)),
+        case_toml=packaged_toml(standalone(written), registry),
         plugins=_distributions(
             {**laws, **more, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
         ),

@@ -18,7 +18,7 @@ import numpy as np
 
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import Source, read_tables
-from lambda_core.case.case_writer import machine_toml
+from lambda_core.case.case_writer import standalone
 from lambda_core.case.machine import MachineCase, bearing_tables, place_in_machine
 from lambda_core.case.salvage import InvalidCase, related
 from lambda_core.case.written import merged, validate
@@ -56,6 +56,7 @@ from lambda_core.model.checking import resolve
 from lambda_core.model.checks.dependent_errors import independent, is_shape_known
 from lambda_core.model.checks.fitted_paths import machine_fit_problems
 from lambda_core.model.laws.interpolation import say_overshoot
+from lambda_core.model.laws.law_packages import packaged_toml
 from lambda_core.model.laws.time_functions import initial, planned_speed, time_function
 from lambda_core.model.laws.time_laws import resolve_time_laws
 from lambda_core.model.ledger import Ledger
@@ -123,7 +124,8 @@ def resolve_machine(
         resolved = _shaft(case, models, opened, ledger, found) if case else None
     if found or ledger.problems or resolved is None or case is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
-    return replace(resolved, case_toml=machine_toml(case, tables))
+    alone = standalone(case)
+    return replace(resolved, case_toml=packaged_toml(tables if alone == case.written() else alone, registry()))
 
 
 def _bearings(

@@ -142,21 +142,17 @@ def check(
 
 def _case_toml(study: Study, folder: Path | None, case: Case | MachineCase | None) -> str:
     """Return the study's case with its fixed changes, complete."""
-    from lambda_core.case.case import Case
     from lambda_core.case.case_io import apply_overrides, read_case
-    from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.case.case_writer import standalone
     from lambda_core.discovery.api import registry
     from lambda_core.domain.written_values import written
-    from lambda_core.model.laws.law_packages import with_packages
-    from lambda_core.model.resolve_machine import resolve_machine
+    from lambda_core.model.laws.law_packages import packaged_toml
 
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     if case is None:
         local = folder / study.case if folder is not None else Path(study.case)
         case = read_case(local if local.is_file() else study.case)
-    if not isinstance(case, Case):
-        return resolve_machine(case, changes).case_toml
-    return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
+    return packaged_toml(standalone(apply_overrides(case, changes) if changes else case), registry())
 
 
 def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | MachineModel:

@@ -5,6 +5,7 @@ Each is known by its package, no package takes a name from another, and a case g
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
@@ -12,12 +13,16 @@ from typing import Any
 import pytest
 
 from lambda_core import api
+from lambda_core.case.case_io import read_case
 from lambda_core.discovery import manager
 from lambda_core.discovery.manager import discover
 from lambda_core.domain.installed import PLUGINS, Source, installed
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.laws.law import Law
+from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.plugins import Method, MethodTable, View, hookimpl
+from lambda_core.studies.definition import Study
+from lambda_core.studies.study_check import _case_toml
 
 
 def kernel(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
@@ -98,6 +103,26 @@ def test_results_write_the_qualified_name(crowded: Any) -> None:
     model = api.check("6319-cp10-1500", ["models.traction=single", "forces.ball_outer.models.traction=ree-eyring"][:1])
     assert 'traction = "alone:single"' in model.case_toml
     assert api.describe(model).headline[-1] == "laws of others: traction single (alone 0.1)"
+
+
+def test_the_stored_case_of_a_machine_names_packages_of_laws(crowded: Any) -> None:
+    """Name them for all bearings, for one, and in a study."""
+    case = {
+        **tomllib.loads(geared_shaft("box")), "models": {"traction": "single"},
+        "connections": {"foot": {"at": "left.outer_ring", "to": "ground", "law": "bushing"}},
+    }  # fmt: skip
+    case["bearings"]["left"]["models"] = {"traction": "late:ree-eyring"}
+    study = {
+        "name": "s", "case": "box", "parameters": [{"path": "operation.speed", "values": ["1 rpm"]}],
+        "set": {"bearings.right.forces.ball_inner.models.traction": "single"},
+    }  # fmt: skip
+    stored = _case_toml(Study.model_validate(study), None, read_case(case))
+    for text in (api.check(case).case_toml, stored):
+        found = tomllib.loads(text)
+        assert found["models"] == {"traction": "alone:single"}
+        assert found["bearings"]["left"]["models"] == {"traction": "late:ree-eyring"}
+        assert found["connections"]["foot"]["law"] == "bushing"
+    assert found["bearings"]["right"]["forces"]["ball_inner"]["models"] == {"traction": "alone:single"}
 
 
 def test_a_law_that_is_not_there_names_the_package_that_had_it(crowded: Any) -> None:

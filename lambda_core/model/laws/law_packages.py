@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.laws.law import Law
 
 if TYPE_CHECKING:
-    from lambda_core.case.case import Case
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.laws.resolve_laws import ModelSource
 
@@ -32,73 +32,52 @@ def law_called(registry: ModelSource, role: str, name: str, *, given: bool) -> L
     return registry.model(role, name)
 
 
-def with_packages(case: Case, registry: ModelSource) -> Case:
-    """Return the case with qualified law names.
+def packaged_toml(tables: Mapping[str, Any], registry: ModelSource) -> str:
+    """Write tables of a case with qualified law names.
 
     Every law of a plugin gets a name such as "carreau-traction:carreau".
 
-    So it means the same law in years, whatever else has that name by then. Names that cannot be found stay.
+    So it means the same law in years, whatever else has that name by then. Names that cannot be found stay. The case is
+    one of a bearing or of a machine.
     """
-    written = case.written()
-    changes: dict[str, Any] = {}
-    if general := _renamed(written.get("models", {}), registry):
-        changes["models"] = general
-    own = {name: _renamed(force.get("models", {}), registry) for name, force in written.get("forces", {}).items()}
-    if any(own.values()):
-        changes["forces"] = {name: {"models": models} for name, models in own.items() if models}
-    circuit = {role: part.get("law") for role, part in _tables(written.get("electric")) if isinstance(part, Mapping)}
-    if films := _renamed({role: law for role, law in circuit.items() if law}, registry):
-        changes["electric"] = {role: {"law": law} for role, law in films.items()}
-    links = {name: _name(part.get("law"), "force_element", registry) for name, part in _tables(written.get("elements"))}
-    if any(links.values()):
-        changes["elements"] = {name: {"law": law} for name, law in links.items() if law}
-    for section in ("loads", "operation", "bodies"):
-        if (renamed := _courses(written.get(section), registry)) != written.get(section):
-            changes[section] = renamed
-    return case.with_(**changes) if changes else case
+    found: dict[str, Any] = _packaged(tables, registry)
+    parts = [(role, part) for role, part in _tables(found.get("electric"))]
+    parts += [("force_element", part) for name in ("elements", "connections") for _, part in _tables(found.get(name))]
+    for role, part in parts:
+        if isinstance(part, dict) and "law" in part:
+            part["law"] = _qualified(registry, role, part["law"])
+    return tables_toml(found)
 
 
-def _courses(value: Any, registry: ModelSource) -> Any:
+def _packaged(value: Any, registry: ModelSource) -> Any:
     """Return a part of a case with renamed laws.
 
-    They are the laws of its time functions.
+    They are those of its tables of models and of its time functions.
     """
     if isinstance(value, list):
-        return [_courses(each, registry) for each in value]
+        return [_packaged(each, registry) for each in value]
     if not isinstance(value, Mapping):
         return value
-    found = {key: _courses(each, registry) for key, each in value.items()}
-    if value.get("kind") == "law":
-        found["law"] = _name(value.get("law"), "time_function", registry) or value.get("law")
+    found = {key: _packaged(each, registry) for key, each in value.items()}
+    if value.get("kind") == "law" and "law" in value:
+        found["law"] = _qualified(registry, "time_function", value["law"])
+    for role, name in _tables(value.get("models")):
+        found["models"][role] = _qualified(registry, role, name)
     return found
-
-
-def _name(name: Any, role: str, registry: ModelSource) -> str:
-    """Return the qualified name of a law.
-
-    "" where it is the one it is called by.
-    """
-    return _renamed({role: name}, registry).get(role, "") if name else ""
 
 
 def _tables(section: Any) -> Iterator[tuple[str, Any]]:
     yield from section.items() if isinstance(section, Mapping) else ()
 
 
-def _renamed(models: Mapping[str, str], registry: ModelSource) -> dict[str, str]:
-    """Return the roles whose law is renamed.
-
-    Its qualified name differs from the one it is called by.
-    """
-    found = {}
-    for role, name in models.items():
-        try:
-            qualified = registry.model(role, name).qualified
-        except LambdaError:
-            continue
-        if qualified != name and not name.startswith(f"{OWN}:"):
-            found[role] = qualified
-    return found
+def _qualified(registry: ModelSource, role: str, name: Any) -> Any:
+    """Return the qualified name of a law of a plugin."""
+    if not isinstance(name, str) or name.startswith(f"{OWN}:"):
+        return name
+    try:
+        return registry.model(role, name).qualified
+    except LambdaError:
+        return name
 
 
 def foreign_laws(model: BearingModel) -> list[Law]:
