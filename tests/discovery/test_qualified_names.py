@@ -106,7 +106,7 @@ def test_results_write_the_qualified_name(crowded: Any) -> None:
 
 
 def test_the_stored_case_of_a_machine_names_packages_of_laws(crowded: Any) -> None:
-    """Name them for all bearings, for one, and in a study."""
+    """Name them for all bearings, one, and studies."""
     case = {
         **tomllib.loads(geared_shaft("box")), "models": {"traction": "single"},
         "connections": {"foot": {"at": "left.outer_ring", "to": "ground", "law": "bushing"}},
