@@ -40,6 +40,7 @@ from lambda_core.fitting.rows import FitProgress, Rows, Watch
 from lambda_core.fitting.sampling import check_count
 from lambda_core.fitting.sampling import sample as sample_posterior
 from lambda_core.fitting.scores import relative
+from lambda_core.fitting.sentence import sentence
 from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.fitting.uncertainty import correlations
 from lambda_core.studies.pool import usable_cores
@@ -246,7 +247,6 @@ def _report(
     suggestion: SuggestedPoint | None,
     sizes: dict[str, float],
 ) -> FitReport:
-    free = [problem.varied[index].short for index in found.free]
     share = relative(found.predicted - found.data.values, found.data.values)
     left_out = relative(found.left_out, found.data.values)
     is_known, degrees = found.data.is_error_known, found.degrees
@@ -257,7 +257,7 @@ def _report(
         file=data.name,
         sha256=data.sha256,
         date=datetime.date.today().isoformat(),
-        sentence=_sentence(found, free),
+        sentence=sentence(found),
         warnings=_warnings(problem, found),
         parameters=_parameters(problem, found),
         tests=[
@@ -266,7 +266,7 @@ def _report(
             )
             for test in found.tests
         ],
-        correlation=found.correlations.tolist() if free else [],
+        correlation=found.correlations.tolist() if found.free else [],
         posterior_correlation=correlations(found.posterior).tolist(),
         combinations=[
             ParameterCombination(weights=d.weights, spread=known(d.spread), is_determined=d.is_determined)
@@ -293,7 +293,7 @@ def _rms(values: FloatArray) -> float:
 
 
 def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
-    quantile, rows = found.quantile(), []
+    rows = []
     posterior = np.sqrt(np.diag(found.posterior)).tolist()
     for index, graded in enumerate(problem.varied):
         value, error = float(found.values[index]), float(found.standard_errors[index])
@@ -306,7 +306,7 @@ def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
                 value=value,
                 standard_error=known(error),
                 posterior_error=posterior[index],
-                interval_95=[] if is_held else [value - quantile * error, value + quantile * error],
+                interval_95=[] if is_held else list(found.interval(index)),
                 start=found.parameters[index].start,
                 low=graded.low,
                 high=graded.high,
@@ -341,30 +341,6 @@ def _points(
         )
         for i, entry in enumerate(problem.entries)
     ]
-
-
-def _sentence(found: Fit, free: Sequence[str]) -> str:
-    """Say in one sentence what the data determine."""
-    held = [found.parameters[index].name for index in found.held]
-    count = found.data.values.size
-    if found.is_interrupted:
-        return f"Interrupted: of {_list(free or held)} these are the best values so far."
-    if not free and len(held) == 1:
-        return f"The {count} measured values do not determine {held[0]}, which keeps its start value."
-    if not free:
-        return f"The {count} measured values determine none of the parameters {_list(held)}."
-    text = f"The {count} measured values determine {_list(free)}"
-    if not held:
-        return f"{text}."
-    weak = next((d for d in reversed(found.directions) if not d.is_determined), None)
-    partners = [name for name in (weak.weights if weak else {}) if name not in held]
-    why = f"cannot be separated from {_list(partners)}" if partners else "has too small an effect"
-    more = "each " if len(held) > 1 else ""
-    return f"{text}, not {_list(held)}, which {more}{why} and keeps its start value."
-
-
-def _list(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _warnings(problem: CaseProblem, found: Fit) -> list[str]:

@@ -171,18 +171,24 @@ class Fit:
 
         return float(t.ppf(0.5 + 0.5 * confidence, max(self.degrees, 1)))
 
+    def interval(self, index: int) -> tuple[float, float]:
+        """Return a parameter's confidence interval."""
+        value, half = float(self.values[index]), self.quantile() * float(self.standard_errors[index])
+        return value - half, value + half
+
     @property
     def posterior(self) -> FloatArray:
-        """Covariance of all parameters.
+        """Covariance of all parameters, with what their ranges say.
 
-        Held ones have their spread before the fit, which widens the others.
+        Without a range that is nothing for fitted ones.
         """
-        if not self.held:
-            return self.covariance
         spread = spreads(self.parameters)
         weighted = self.jacobian / (self.errors * self.scale)[:, None]
         information = weighted.T @ weighted / self.factor
-        information[self.held, self.held] += 1.0 / spread[list(self.held)] ** 2
+        low, high = bounds(self.parameters)
+        known = np.isfinite(high - low)
+        known[list(self.held)] = True
+        information[known, known] += 1.0 / spread[known] ** 2
         scaled = np.linalg.inv(information * np.outer(spread, spread))
         found: FloatArray = scaled * np.outer(spread, spread)
         return found

@@ -22,7 +22,7 @@ class FittedParameter(Record):
     unit: str
     value: float
     standard_error: float | None = Field(description="null for a parameter that is held")
-    posterior_error: float = Field(description="standard deviation; that of the range if the data do not determine it")
+    posterior_error: float = Field(description="standard deviation, with what the range says")
     interval_95: list[float] = Field(description="95 % confidence interval; empty for a parameter that is held")
     start: float
     low: float = Field(description="lower end of its range")
@@ -131,7 +131,7 @@ class FitReport(Record):
     warnings: list[str] = Field(description="reasons to doubt the fitted values")
     parameters: list[FittedParameter] = Field(description="in the order in which they were named")
     correlation: list[list[float]] = Field(description="of the parameters that are not held, in their order")
-    posterior_correlation: list[list[float]] = Field(description="of all parameters, with the ranges of held ones")
+    posterior_correlation: list[list[float]] = Field(description="of all parameters, with what their ranges say")
     combinations: list[ParameterCombination] = Field(description="best determined first")
     tests: list[PatternTest] = Field(description="clearest pattern first")
     condition_quantities: dict[str, str] = Field(description="physical quantity of each operating condition")

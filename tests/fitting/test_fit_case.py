@@ -26,6 +26,7 @@ from lambda_core.fitting.problem import CaseProblem
 from lambda_core.fitting.report import SuggestedPoint
 from lambda_core.fitting.residual_tests import misfit
 from lambda_core.fitting.scores import relative
+from lambda_core.fitting.sentence import sentence
 from lambda_core.fitting.subjects import subject_of
 
 CASE = "6319-cp10-1500"
@@ -65,7 +66,10 @@ def test_true_values_are_found(report: api.FitReport) -> None:
     assert report.correlation[0][1] < -0.8
     assert report.rms_error_pct < 0.02
     assert not report.warnings
-    assert "determine elastic_hysteresis.loss_factor and traction.tau_eyring" in report.sentence
+    assert report.sentence == (
+        "The 4 measured values narrow the range of elastic_hysteresis.loss_factor; they do not narrow the range of "
+        "traction.tau_eyring: its 95 % interval covers it."  # by Student's distribution with two degrees of freedom
+    )
 
 
 def test_the_next_point_is_a_new_one_and_helps(report: api.FitReport) -> None:
@@ -265,14 +269,59 @@ def test_residuals_far_beyond_their_errors_are_told() -> None:
     assert misfit(np.array([-21.0, 7.9, 11.0, 9.0]), 1) == pytest.approx(10.0 / 0.6745 * math.sqrt(4 / 3), rel=1e-9)
 
 
-def test_data_that_do_not_determine_a_parameter_have_a_sentence_of_their_own() -> None:
+@pytest.mark.parametrize(
+    ("slopes", "said"),
+    [
+        ((1e-3, 1e-3), "determine none of the parameters mu and tau"),
+        ((100.0, 100.0), "determine mu and tau"),
+        ((100.0, 25.0), "determine mu; they narrow the range of tau"),
+        ((100.0, 12.0), "determine mu; they do not narrow the range of tau: its 95 % interval covers it"),
+        ((12.0, 12.0), "do not narrow the ranges of mu and tau: their 95 % intervals cover them"),
+        ((100.0, 0.1), "determine mu; they do not determine tau, which has too small an effect and keeps its "
+            "start value"),
+    ],
+)  # fmt: skip
+def test_the_interval_of_a_parameter_decides_what_the_data_determine(slopes: tuple[float, float], said: str) -> None:
+    """Compare 95 % intervals with ranges.
+
+    Data were said to determine a parameter of any value within its range.
+    """
+    jacobian = np.kron(np.eye(2), np.ones((3, 1))) * np.array(slopes)
+    ranges = [Parameter("mu", 0.1, 0.0, 0.2), Parameter("tau", 0.1, 0.0, 0.2)]
+    found = fit_values(lambda values: jacobian @ values, ranges, Data(jacobian @ np.full(2, 0.1), np.ones(6)))
+    assert sentence(found) == f"The 6 measured values {said}."
+
+
+def test_one_parameter_that_data_do_not_determine_has_a_sentence_of_its_own() -> None:
     """Say what the data do not determine.
 
     It was "none of the parameters" of one.
     """
     data = Data(np.array([10.0, 10.1, 9.9]), np.ones(3))
     found = fit_values(lambda values: 10.0 + 1e-3 * np.repeat(values, 3), [Parameter("mu", 0.1, 0.0, 0.2)], data)
-    assert fit_case._sentence(found, []) == "The 3 measured values do not determine mu, which keeps its start value."
+    assert sentence(found) == "The 3 measured values do not determine mu, which keeps its start value."
+
+
+def test_errors_of_fitted_values_are_at_most_their_ranges() -> None:
+    """Count the range with the data.
+
+    The error of a fitted case was 0.030 for a range of 0.027.
+    """
+    data, ranges = Data(np.array([10.1, 11.1, 9.1]), np.full(3, 0.05)), [Parameter("mu", 0.1, 0.0, 0.2)]
+    found = fit_values(lambda values: 10.0 + np.repeat(values, 3), ranges, data, limit=math.inf)
+    assert math.sqrt(found.posterior[0, 0]) < 0.2 / math.sqrt(12.0) < found.standard_errors[0]
+
+
+def test_a_fitted_value_near_the_end_of_what_its_law_allows_has_a_band(report: api.FitReport, tmp_path: Path) -> None:
+    """Step to the other side alone.
+
+    Value less error was below 0, and the fitted case was refused.
+    """
+    loss = report.parameters[0].model_copy(update={"value": 0.001, "posterior_error": 0.007})
+    doubtful = report.model_copy(update={"parameters": [loss, report.parameters[1]]})
+    case = api.fitted_case(CASE, doubtful, tmp_path / "fitted.toml")
+    band = api.model_band(case, quantities=["friction torque"]).band("friction torque")
+    assert "fitted values" in {one.name for one in band.contributors}
 
 
 def test_a_next_point_that_tells_nothing_is_said_to(report: api.FitReport) -> None:

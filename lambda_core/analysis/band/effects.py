@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from pydantic import ValidationError
 
 from lambda_core.analysis.band.changed import as_loaded, is_of_laws, resolved_anew, with_laws, with_value
-from lambda_core.analysis.band.graded import Exchange, Graded, Resolver, exchanges, graded_parameters, varied
+from lambda_core.analysis.band.graded import Exchange, Graded, Resolver, exchanges, graded_parameters, named
 from lambda_core.analysis.band.readings import POSITIONS, READ, read_values
 from lambda_core.analysis.thermal.losses import model_at
 from lambda_core.case.fitted import finished_fit
@@ -253,7 +254,7 @@ class Effects:
         for size, vector in zip(sizes, vectors.T, strict=True):
             step = np.zeros(len(rows))
             step[~held] = math.sqrt(max(float(size), 0.0)) * vector
-            parts.append(0.5 * (logarithms(values + step) - logarithms(values - step)))
+            parts.append(_change(logarithms, values, step))
         # As two alternatives with the variance of all components together.
         total = np.sqrt(np.sum(np.square(parts), axis=0))
         yield Effect("fitted values", f"fitted to {fit.file}", np.array([total, -total]), is_range=False)
@@ -266,7 +267,7 @@ class Effects:
         found, problems = [], []
         for number, row in enumerate(rows):
             try:
-                found.append(varied(self._model, f"{row.path}={_ends(row)}"))
+                found.append(named(self._model, row.path, row.unit))
             except UsageError as error:
                 problems.append(Problem(f"fit.parameters.{number}.path", str(error).removeprefix("--vary: ")))
         if problems:
@@ -313,6 +314,23 @@ class Effects:
         return np.where(np.isfinite(ratio), ratio, 0.0)
 
 
+def _change(logarithms: Callable[[FloatArray], FloatArray], values: FloatArray, step: FloatArray) -> FloatArray:
+    """Return what a step of parameters changes.
+
+    It is half of the difference of both directions; from a value near the end of what its law allows, that of one.
+    """
+    sides: list[FloatArray] = []
+    for sign in (1.0, -1.0):
+        try:
+            sides.append(sign * logarithms(values + sign * step))
+        except (CaseError, SolverError, ValidationError) as error:
+            if sign < 0.0 and not sides:
+                why = error.errors()[0]["msg"] if isinstance(error, ValidationError) else _first(error)
+                raise SolverError(f"fitted values, changed by their errors, have no results: {why}") from None
+    found: FloatArray = np.mean(sides, axis=0)
+    return found
+
+
 def range_effect(graded: Graded, ends: Callable[[], Sequence[FloatArray]], left_out: list[str]) -> Iterator[Effect]:
     """Yield the effect of the range of a parameter.
 
@@ -329,11 +347,6 @@ def range_effect(graded: Graded, ends: Callable[[], Sequence[FloatArray]], left_
         left_out.append(f"{graded.short} is left out: {_first(error)}")
         return
     yield Effect(graded.short, graded.source, alternatives, is_range=True)
-
-
-def _ends(row: FittedValue) -> str:
-    ends = (row.value - row.standard_error, row.value + row.standard_error)
-    return "..".join(f"{end!r} {row.unit}".rstrip() for end in ends)
 
 
 def _first(error: Exception) -> str:

@@ -204,10 +204,29 @@ def varied(model: BearingModel, specification: str) -> Graded:
         When no parameter or several have the name, or it has no range and none is given.
     """
     name, equals, ends = specification.partition("=")
-    name = name.strip()
+    found, is_ranged = _named(model, name.strip())
+    if equals:
+        given = given_range(found, ends)
+        _refuse_outside(model, given)
+        return given
+    if not is_ranged:
+        raise UsageError(f"--vary: {found.path} has no published range: give one, for example {found.example()}")
+    return found
+
+
+def named(model: BearingModel, path: str, unit: str) -> Graded:
+    """Return the parameter at a path, in a unit.
+
+    It may have no range; an unknown path raises a UsageError.
+    """
+    return replace(_named(model, path)[0], scale=Scale(unit))
+
+
+def _named(model: BearingModel, name: str) -> tuple[Graded, bool]:
+    """Return the parameter of a name, and whether it has a range."""
     ranged = {entry.path: entry for entry in graded_parameters(model)}
-    if not equals and name in ranged:
-        return ranged[name]
+    if name in ranged:
+        return ranged[name], True
     every = {entry.path: entry for entry in _of_laws(model, is_ranged=False)} | ranged | _plain(model, name)
     matching = [path for path in every if path == name or path.endswith(f".{name}")]
     if not matching:
@@ -217,14 +236,7 @@ def varied(model: BearingModel, specification: str) -> Graded:
         raise UsageError(f'--vary: "{name}" is not a known parameter of this case; {known}')
     if len(matching) > 1:
         raise UsageError(f'--vary: "{name}" names several parameters: write {" or ".join(sorted(matching))}')
-    found = every[matching[0]]
-    if equals:
-        given = given_range(found, ends)
-        _refuse_outside(model, given)
-        return given
-    if found.path not in ranged:
-        raise UsageError(f"--vary: {found.path} has no published range: give one, for example {found.example()}")
-    return found
+    return every[matching[0]], matching[0] in ranged
 
 
 def _refuse_outside(model: BearingModel, given: Graded) -> None:
