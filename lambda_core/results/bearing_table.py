@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from lambda_core.domain.number_text import NONE
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import lines_under
-from lambda_core.results.band_text import ends, named_sources
+from lambda_core.results.band_text import MOSTLY, ends, named_sources
 from lambda_core.results.model_band import ModelBand
 
 HEAD, COLUMN = 24, 14  # least widths
@@ -31,9 +31,10 @@ def digits(value: float | None, count: int = 4) -> str:
 def band_lines(band: Sequence[float], bearings: Mapping[str, ModelBand | None], units: UnitSystem = SI) -> list[str]:
     """Return the lines of a machine's model band.
 
-    They give the torque of all bearings with its causes; none without a band.
+    They give the torque of all bearings, the causes of the bands of each, and why there is none.
     """
+    sources = named_sources(bearings, units)
     if not band:
-        return []
-    both = f"{ends(band, 'N mm', units, named=True)} of all bearings (90 %)"
-    return lines_under("model band", [both, *named_sources(bearings, units)])
+        return lines_under("model band", sources)
+    both = f"{ends(band, 'N mm', units, named=True)} of all bearings (90 %, {MOSTLY})"
+    return lines_under("model band", [both, *sources])

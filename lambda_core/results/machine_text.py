@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import lines_under, wrapped
-from lambda_core.results.band_text import band_rows, ends
+from lambda_core.results.band_text import band_row, other_band_rows
 from lambda_core.results.bearing_table import band_lines, bearing_table, digits
 from lambda_core.results.quantity import quantities, shown
+from lambda_core.results.rating import Rating
 from lambda_core.results.text import assumption_lines, element_lines, line, warning_lines, watched_lines
 
 if TYPE_CHECKING:
     from lambda_core.results.bearing_summary import BearingSummary
     from lambda_core.results.machine_numbers import Swing
-    from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
 
 
@@ -89,7 +89,11 @@ def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
     for k, axis in enumerate("xyz"):
         head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {units.unit('N')}"
         rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))
-    return [*rows, *band_rows(each, units)]
+    kinds = (type(each[0]), Rating)
+    placed = {
+        one.name for kind in kinds for one in quantities(kind).values() if one.column and one.group not in _NO_ROW
+    }
+    return [*rows, *other_band_rows(each, placed, units)]
 
 
 def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> Iterator[tuple[str, list[str]]]:
@@ -109,8 +113,7 @@ def _of_group(each: Sequence[BearingSummary], group: str, units: UnitSystem) -> 
             else:
                 cells = [one.cell(value, units) for value in values]
             yield one.head(units), cells
-            if name == "friction_torque_Nmm" and any(b.friction_torque_Nmm_band for b in each):
-                yield "  model band", [ends(b.friction_torque_Nmm_band, one.unit, units) for b in each]
+            yield from band_row(each, name, one.unit, units)
 
 
 def _pair(value: float | None, width: float | None, unit: str, units: UnitSystem) -> str:

@@ -63,6 +63,11 @@ class Band(Record):
     contributors: list[Contributor]
 
     @property
+    def title(self) -> str:
+        """Name of the result in texts; a life has its symbol."""
+        return f"{self.quantity} L_10rh" if FIELDS.get(self.quantity) == "reference_life_h" else self.quantity
+
+    @property
     def half_width_pct(self) -> float:
         """Half of the width over the value [%]."""
         return 50.0 * (self.high - self.low) / abs(self.value) if self.value else math.nan
@@ -114,7 +119,7 @@ class Band(Record):
         shown = [rounded(number, half) for number in (self.value, self.low, self.high)]
         names = self.why()
         why = f"; mostly {names}" if names else ""
-        return f"{self.quantity} {shown[0]} {self.unit}, 90 % model band {shown[1]}..{shown[2]} {self.unit}{why}"
+        return f"{self.title} {shown[0]} {self.unit}, 90 % model band {shown[1]}..{shown[2]} {self.unit}{why}"
 
 
 class ModelBand(Record):
@@ -164,9 +169,9 @@ class ModelBand(Record):
                 continue
             low, high = (100.0 * (end / band.value - 1.0) for end in (band.low, band.high))
             if max(abs(low), abs(high)) < LEAST_SHARE:
-                found.append(f"{band.quantity} {NARROW}")
+                found.append(f"{band.title} {NARROW}")
                 continue
-            found.append(f"{band.quantity} {low:+.0f} .. {high:+.0f} %{why}")
+            found.append(f"{band.title} {low:+.0f} .. {high:+.0f} %{why}")
         return found
 
     def text(self) -> str:

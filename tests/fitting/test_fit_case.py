@@ -284,7 +284,7 @@ def test_residuals_far_beyond_their_errors_are_told() -> None:
 def test_the_interval_of_a_parameter_decides_what_the_data_determine(slopes: tuple[float, float], said: str) -> None:
     """Compare 95 % intervals with ranges.
 
-    Data were said to determine a parameter of any value within its range.
+    The sentence named parameters whose intervals covered their ranges.
     """
     jacobian = np.kron(np.eye(2), np.ones((3, 1))) * np.array(slopes)
     ranges = [Parameter("mu", 0.1, 0.0, 0.2), Parameter("tau", 0.1, 0.0, 0.2)]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.number_text import NONE, hours
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
-from lambda_core.results.band_text import band_rows, ends
+from lambda_core.results.band_text import band_row, other_band_rows
 from lambda_core.results.bearing_table import COLUMN, band_lines, bearing_table, digits
 from lambda_core.results.bearing_table import HEAD as TABLE_HEAD
 from lambda_core.results.quantity import Quantity, quantities
@@ -74,27 +74,34 @@ def _equilibrium_rows(bearings: Sequence[BearingEquilibrium], units: UnitSystem)
 
     Numbers of an axis stand one below the other.
     """
-    rows = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))]
+    rows, placed = [_Row("bearing", "", lambda b: str(b.title.split(" (")[0]))], set()
+
+    def place(one: Quantity, row: _Row) -> None:
+        placed.add(one.name)
+        rows.extend((row, *_ready(bearings, band_row(bearings, one.name, one.unit, units))))
+
     declared = quantities(type(bearings[0]))
     for name in type(bearings[0]).model_fields:
         if name == "rating":  # its lives and safety have rows, friction of catalogues has none
-            rows += [_of_rating(one) for one in quantities(Rating).values() if one.column and one.group == "life"]
+            for one in quantities(Rating).values():
+                if one.column and one.group == "life":
+                    place(one, _of_rating(one))
         if (one := declared.get(name)) is None or not one.column:
             continue
         if one.axes:
             rows += [_axis(one, k) for k in range(len(one.axes))]
         else:
-            rows.append(_Row(one.column, one.unit, lambda b, q=one: getattr(b, q.name), quantity=one))  # type: ignore[misc]
-        if one.name == "friction_torque_Nmm" and any(bearing.friction_torque_Nmm_band for bearing in bearings):
-            rows.append(_Row("  model band", "", lambda b: ends(b.friction_torque_Nmm_band, "N mm", units)))
-    bands = [_ready(head, bearings, cells) for head, cells in band_rows(bearings, units)]
-    return (*rows, *_STIFFNESS, *bands)
+            place(one, _Row(one.column, one.unit, lambda b, q=one: getattr(b, q.name), quantity=one))  # type: ignore[misc]
+    return (*rows, *_ready(bearings, other_band_rows(bearings, placed, units)), *_STIFFNESS)
 
 
-def _ready(head: str, bearings: Sequence[BearingEquilibrium], cells: Sequence[str]) -> _Row:
-    """Return a row whose cells are written."""
-    texts = {bearing.name: cell for bearing, cell in zip(bearings, cells, strict=True)}
-    return _Row(head, "", lambda b: texts[b.name])
+def _ready(bearings: Sequence[BearingEquilibrium], written: Sequence[tuple[str, list[str]]]) -> list[_Row]:
+    """Return rows whose cells are written."""
+    found = []
+    for head, cells in written:
+        texts = {bearing.name: cell for bearing, cell in zip(bearings, cells, strict=True)}
+        found.append(_Row(head, "", lambda b, texts=texts: texts[b.name]))  # type: ignore[misc]
+    return found
 
 
 def _of_rating(one: Quantity) -> _Row:

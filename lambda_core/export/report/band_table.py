@@ -30,6 +30,6 @@ def model_bands(summary: Any, units: UnitSystem = SI) -> tuple[Table, ...]:
         width = getattr(summary, _SCATTER.get(one.quantity, ""), None)
         scatter = "-" if width is None else f"± {units.value(width, one.unit):.2g}"
         shown = f"{number(round(low, digits), digits)} .. {number(round(high, digits), digits)}"
-        rows.append((one.quantity, shown, scatter, units.unit(one.unit), one.why()))
+        rows.append((one.title, shown, scatter, units.unit(one.unit), one.why()))
     head = ("", "model band (90 %)", "scatter (95 %)", "unit", "mostly from")
     return (Table("how far the model may be off", head, tuple(rows)),)
