@@ -78,7 +78,7 @@ def band_row(each: Sequence[Banded], name: str, unit: str, units: UnitSystem = S
 def other_band_rows(
     each: Sequence[Banded], placed: Container[str], units: UnitSystem = SI
 ) -> list[tuple[str, list[str]]]:
-    """Return results that have a row for the sake of their bands.
+    """Return results that have a row for their bands.
 
     They are those whose names are not `placed`, each with its band below. Temperatures have text of their own.
     """
@@ -98,7 +98,7 @@ def other_band_rows(
 
 
 def _of_quantity(band: ModelBand | None, quantity: str) -> Band | None:
-    """Return the band of a result; None where there is none."""
+    """Return the band of a result, or None."""
     return next((one for one in band.bands if one.quantity == quantity), None) if band is not None else None
 
 
@@ -139,7 +139,7 @@ def source_lines(band: ModelBand | None) -> list[str]:
 
 
 def _reasons(band: ModelBand) -> list[str]:
-    """Return the sources of bands, once for those of one origin."""
+    """Return the sources of bands, each once."""
     reasons: dict[str, list[str]] = {}
     for one in (wide for wide in band.bands if not is_narrow((wide.low, wide.high))):
         reasons.setdefault(one.why(), []).append(one.title)

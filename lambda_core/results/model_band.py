@@ -57,14 +57,16 @@ class Band(Record):
 
     quantity: str
     unit: str
-    value: float = Field(description="quasi-static, mean over the positions of the balls")
+    value: float = Field(
+        description="of the result; of a band alone: quasi-static, mean over the positions of the balls"
+    )
     low: float
     high: float
     contributors: list[Contributor]
 
     @property
     def title(self) -> str:
-        """Name of the result in texts; a life has its symbol."""
+        """Name in texts; a life has its symbol."""
         return f"{self.quantity} L_10rh" if FIELDS.get(self.quantity) == "reference_life_h" else self.quantity
 
     @property
@@ -77,11 +79,20 @@ class Band(Record):
 
         It is the result of a run, say: they lie as far off in proportion.
         """
+        moved = self.moved(value)
+        return [moved.low, moved.high]
+
+    def moved(self, value: float) -> Self:
+        """Return the band of another value, with its contributors."""
         if value == self.value:
-            return [self.low, self.high]
-        if not self.value:
-            return [value, value]
-        return [value * self.low / self.value, value * self.high / self.value]
+            return self
+
+        def at(one: float) -> float:
+            return value * one / self.value if self.value else value
+
+        causes = [one.model_copy(update={"low": at(one.low), "high": at(one.high)}) for one in self.contributors]
+        ends = {"value": value, "low": at(self.low), "high": at(self.high)}
+        return self.model_copy(update={**ends, "contributors": causes})
 
     def mostly(self) -> str:
         """Return the names and shares of the largest contributors."""
@@ -138,23 +149,25 @@ class ModelBand(Record):
         """Return the band of one result."""
         return next(band for band in self.bands if band.quantity == quantity)
 
-    def fields(self, values: Mapping[str, float | None] | None = None) -> dict[str, list[float]]:
-        """Return the ends of each band by name.
+    def put_around(self, values: Mapping[str, float | None]) -> Self:
+        """Return the same around the numbers of a result.
 
-        The name is that of its number in the machine interface, with ``_band``.
+        Bands whose number is None are left out.
 
         Parameters
         ----------
-        values : mapping, optional
-            Numbers of a result under their names in that interface, which the bands are put around; none for one that
-            is None.
+        values : mapping
+            Numbers under their names in the machine interface; a band without one stays where it is.
         """
-        found = {}
-        for band in self.bands:
-            value = (values or {}).get(FIELDS[band.quantity], band.value)
-            if value is not None:
-                found[f"{FIELDS[band.quantity]}_band"] = band.around(value)
-        return found
+        numbers = [(band, values.get(FIELDS[band.quantity], band.value)) for band in self.bands]
+        return self.model_copy(update={"bands": [band.moved(to) for band, to in numbers if to is not None]})
+
+    def fields(self) -> dict[str, list[float]]:
+        """Return the ends of each band by name.
+
+        The name is that of its number in the machine interface, with ``_band``.
+        """
+        return {f"{FIELDS[band.quantity]}_band": [band.low, band.high] for band in self.bands}
 
     def shares(self) -> list[str]:
         """Return the uncertainty of each result.
@@ -196,7 +209,7 @@ class Banded(Record):
     inner_ring_temperature_degC_band: list[float] = Field(description=_COMPUTED, default=[])
     outer_ring_temperature_degC_band: list[float] = Field(description=_COMPUTED, default=[])
     model_band: ModelBand | None = Field(
-        description="where the bands come from, quasi-static; null without them", default=None
+        description="the same bands with their causes; null without them", default=None
     )
 
     def with_band(self, band: ModelBand | None) -> Self:
@@ -207,7 +220,8 @@ class Banded(Record):
         rating = numbers.get("rating")
         if rating is not None:
             numbers["reference_life_h"] = rating.reference_life_h
-        return self.model_copy(update={**band.fields(numbers), "model_band": band})
+        own = band.put_around(numbers)
+        return self.model_copy(update={**own.fields(), "model_band": own})
 
 
 class MachineBand(Record):

@@ -223,7 +223,7 @@ def named(model: BearingModel, path: str, unit: str) -> Graded:
 
 
 def _named(model: BearingModel, name: str) -> tuple[Graded, bool]:
-    """Return the parameter of a name, and whether it has a range."""
+    """Return a named parameter, and whether it has a range."""
     ranged = {entry.path: entry for entry in graded_parameters(model)}
     if name in ranged:
         return ranged[name], True
