@@ -13,8 +13,8 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.kernels import cache_folder, compile_kernel
 from lambda_core.laws.pack import pack
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.core import begin, core
-from lambda_core.solver.entry import ON_DEMAND, UNITS, missing
+from lambda_core.solver.core import begin, core, roller_unit
+from lambda_core.solver.entry import OF_ROLLERS, ON_DEMAND, UNITS, missing
 
 
 class Warmup(Record):
@@ -54,8 +54,8 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
         Called with a sentence before something is compiled.
     """
     start = time.perf_counter()
-    absent = missing() if pack() is None else []
-    begin(announce, UNITS)
+    absent = missing((*UNITS, *OF_ROLLERS) if pack() is None else OF_ROLLERS)
+    begin(announce, UNITS, has_rollers=True)
     said: list[str] = []  # one sentence per law that was not on disk
 
     def say(text: str) -> None:
@@ -75,9 +75,11 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
     solver = core(announce)
     for name in ON_DEMAND:
         solver.find(name)
+    for name in OF_ROLLERS:
+        roller_unit(solver, name)
     return Warmup(
         folder=str(cache_folder()),
-        solver_parts=len(UNITS),
+        solver_parts=len(UNITS) + len(OF_ROLLERS),
         solver_parts_compiled=len(absent),
         laws=len(laws),
         laws_compiled=compiled,

@@ -94,7 +94,9 @@ def core(announce: Callable[[str], None] | None = None) -> Core:
     return _loaded[origin]
 
 
-def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
+def begin(
+    announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None, *, has_rollers: bool = False
+) -> None:
     """Begin to compile missing code.
 
     It is not on disk, and there is no pack.
@@ -102,12 +104,25 @@ def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | 
     Parameters
     ----------
     announce, units
-        As for :func:`lambda_core.solver.entry.begin`.
+        As for :func:`lambda_core.solver.entry.begin`, of the units that every machine may need.
+    has_rollers : bool
+        Whether those of rollers are needed, too.
     """
-    if pack() is None and "" not in _loaded:
+    needs_core = pack() is None and "" not in _loaded
+    if needs_core or has_rollers:
         from lambda_core.solver import entry
 
-        entry.begin(announce, units)
+        entry.begin(announce, [*((entry.NEEDED if units is None else units) if needs_core else ()),
+                               *(entry.OF_ROLLERS if has_rollers else ())])  # fmt: skip
+
+
+def roller_unit(compiled: Core, name: str) -> Unit:
+    """Return a unit of rollers, whose missing code is compiled on as many processors as there are."""
+    from lambda_core.solver import entry
+
+    begin(has_rollers=True)
+    entry.wait()
+    return compiled.find(name)
 
 
 def _found_in(packed: Any) -> Callable[[str], Unit]:

@@ -43,6 +43,7 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "probe": (cell_probe.probe, cell_probe.probe_sig),
 }
 ON_DEMAND = ("advance_finely", "probe")  # compiled when a run first needs it
+NEEDED = tuple(name for name in UNITS if name not in ON_DEMAND)
 # What one process compiles, the longest work first. Units of a group call the same functions, which are typed once.
 GROUPS = (
     ("evaluate", "jacobian", "wrench", "tangent"),
@@ -57,6 +58,12 @@ FINER_GROUPS = (
     ("solve_static", "wrench", "tangent"),
     ("advance_finely", "probe"),
 )
+# Of machines with rollers, in the same way.
+ROLLER_GROUPS = (
+    ("roller_jacobian", "roller_factor", "roller_solve"),
+    ("roller_evaluate", "roller_observe", "roller_energy", "roller_shares"),
+)
+OF_ROLLERS = tuple(name for group in ROLLER_GROUPS for name in group)
 # The equilibrium allocates its workspaces; all others run without reference counting.
 # What takes long lets other threads work: one of them hears the signals meanwhile.
 _OPTIONS: dict[str, dict[str, Any]] = {
@@ -64,12 +71,12 @@ _OPTIONS: dict[str, dict[str, Any]] = {
 }
 
 
-def missing() -> list[str]:
+def missing(names: Iterable[str] = tuple(UNITS)) -> list[str]:
     """Return the units that are not on disk yet."""
-    folders = {
-        name: host_folder(host_key(function, SOURCES, **_OPTIONS.get(name, {})))
-        for name, (function, _) in UNITS.items()
-    }
+    folders = {}
+    for name in names:
+        function, _, sources = _unit(name)
+        folders[name] = host_folder(host_key(function, sources, **_OPTIONS.get(name, {})))
     return [name for name, folder in folders.items() if not any(folder.rglob("*.nbc"))]
 
 
@@ -117,16 +124,17 @@ def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | 
     announce : callable, optional
         Called with a sentence before anything is compiled.
     units : iterable of str, optional
-        Keys of :data:`UNITS`; by default those that every run needs.
+        Of :data:`UNITS` and :data:`OF_ROLLERS`; by default :data:`NEEDED`. What was asked for before is left out.
     """
-    wanted = set(UNITS.keys() - set(ON_DEMAND) if units is None else units)
-    absent = [] if _workers else [name for name in missing() if name in wanted]
+    wanted = [*(NEEDED if units is None else units)]
+    absent = missing(name for name in wanted if name not in _begun)
+    _begun.update(wanted)
     if len(absent) < 2:
         return
     if announce is not None:
         announce(f"compiling {len(absent)} parts of the solver (once, a quarter of a minute to some minutes)")
     code = "import sys; from lambda_core.solver.entry import build_group; build_group(sys.argv[1])"
-    for group in GROUPS if _processors() <= len(GROUPS) else FINER_GROUPS:
+    for group in (*(GROUPS if _processors() <= len(GROUPS) else FINER_GROUPS), *ROLLER_GROUPS):
         names = ",".join(name for name in group if name in absent)
         if names:
             command = [sys.executable, "-P", "-W", "ignore", "-c", code, names]
@@ -168,3 +176,4 @@ def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -
 
 
 _workers: list[subprocess.Popen[bytes]] = []
+_begun: set[str] = set()  # units that :func:`begin` was asked for in this process

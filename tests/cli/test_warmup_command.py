@@ -18,9 +18,9 @@ def test_after_it_nothing_is_left_to_compile(capsys: pytest.CaptureFixture[str])
     assert main(["warmup", "--json"]) == 0
     first = json.loads(capsys.readouterr().out)
     assert first["laws"] == sum(len(registry().names(role)) for role in ROLES)
-    assert first["solver_parts"] == len(entry.UNITS)
+    assert first["solver_parts"] == len(entry.UNITS) + len(entry.OF_ROLLERS)
     assert first["faults"] == []
-    assert entry.missing() == []
+    assert entry.missing((*entry.UNITS, *entry.OF_ROLLERS)) == []
     said: list[str] = []
     again = api.warmup(announce=said.append)
     assert said == []
@@ -35,9 +35,10 @@ def test_what_is_compiled_is_announced(
     The solver is left out because it takes too long.
     """
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
-    monkeypatch.setattr("lambda_core.runs.warmup.begin", lambda announce, units: None)
+    monkeypatch.setattr("lambda_core.runs.warmup.begin", lambda announce, units, has_rollers: None)
     solver = SimpleNamespace(find=lambda name: None)
     monkeypatch.setattr("lambda_core.runs.warmup.core", lambda announce: solver)
+    monkeypatch.setattr("lambda_core.runs.warmup.roller_unit", lambda solver, name: None)
     monkeypatch.setattr("lambda_core.runs.warmup.missing", list)
     wanted = ("damping", "asperity_load")
     monkeypatch.setattr("lambda_core.runs.warmup.ROLES", {role: ROLES[role] for role in wanted})

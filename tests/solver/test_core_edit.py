@@ -20,6 +20,7 @@ from lambda_core.laws.executable import executable_key, executed
 from lambda_core.solver import entry
 from lambda_core.solver.contact import contact_kinematics
 from lambda_core.solver.motion import steps
+from lambda_core.solver.roller import units
 
 # One small function of the core, compiled as the solver's parts are, and the names under which those are looked up.
 ONE_FUNCTION = """
@@ -152,6 +153,7 @@ def test_a_damaged_table_of_hashes_is_made_anew(tmp_path: Path) -> None:
 @pytest.mark.parametrize("groups", [entry.GROUPS, entry.FINER_GROUPS], ids=["few", "many"])
 def test_every_part_is_compiled_by_one_process(groups: tuple[tuple[str, ...], ...]) -> None:
     assert sorted(name for group in groups for name in group) == sorted(entry.UNITS)
+    assert sorted(entry.OF_ROLLERS) == sorted(units.UNITS)
 
 
 PLAIN_RUN = """

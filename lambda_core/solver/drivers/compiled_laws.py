@@ -46,7 +46,7 @@ class Kernels:
     def __init__(self, model: BearingModel, announce: Announce = None, near: Kernels | None = None) -> None:
         self._laws, self._contacts = model.laws, contacts_of(model)
         self._guides, self._links, self._times = guides(model), links(model), times(model)
-        begin(announce)  # the solver is compiled at the same time
+        begin(announce, has_rollers=model.rollers is not None)  # the solver is compiled at the same time
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {} if near is None else near.of_laws(model)
         self.compiled: dict[tuple[str, str], Any] = {}

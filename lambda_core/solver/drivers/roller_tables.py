@@ -19,6 +19,7 @@ from lambda_core.laws.jit.words import addresses
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.factors import RollerBlocks
+from lambda_core.solver.core import roller_unit
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel, Cage
@@ -143,7 +144,7 @@ def roller_code(compiled: Core, has_rollers: bool) -> tuple[NDArray[np.int64], N
         return np.zeros((0, len(names[0])), dtype=np.int64), np.zeros((0, len(names[1])), dtype=np.int64)
     for name in (*names[0], *names[1]):
         if name not in _kept:
-            _kept[name] = compiled.find(f"roller_{name}").pointer
+            _kept[name] = roller_unit(compiled, f"roller_{name}").pointer
     code, blocks = (addresses([[_kept[name] for name in each]]) for each in names)
     return code, blocks
 

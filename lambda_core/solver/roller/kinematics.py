@@ -10,7 +10,7 @@ import math
 
 from lambda_core.solver.contact.contact_kinematics import axis_x, azimuth_on
 from lambda_core.solver.contact.ring_waves import widen
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import helper, large_helper
 from lambda_core.solver.roller.motion import axis_of, from_own
 from lambda_core.solver.vec import (
     add,
@@ -167,7 +167,7 @@ def rib_kinematics(roller, ring, row, raceway, kin):
     return delta
 
 
-@helper
+@large_helper
 def apply_roller_wrench(kin, roller, ring, wrench, on_roller, on_ring):
     """Turn a contact wrench into force and moment.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import helper, large_helper
 from lambda_core.solver.vec import cross, dot, scale, store, subtract
 
 
@@ -50,7 +50,7 @@ def axis_of(roller, row):
     return from_own(_own_axis(roller), row)
 
 
-@helper
+@large_helper
 def roller_rates(roller, wrench, row, rate):
     """Write the rates of a roller.
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.solver.cage.guides import force_and_point, guide_energy, guide_force, guide_loss, neighbour_apply
-from lambda_core.solver.layout import guide_law, helper, part
+from lambda_core.solver.layout import guide_law, helper, large_helper, part
 from lambda_core.solver.roller.motion import axis_of, from_own
 from lambda_core.solver.roller.pocket import SHARES, STATIONS
 from lambda_core.solver.vec import (
@@ -88,7 +88,7 @@ def _apply(roller, other, g, out, share, on_roller, on_other):
     neighbour_apply(other.azimuth, lever, force, -share, on_other)
 
 
-@helper
+@large_helper
 def neighbour_forces(roller, other, j, row, bundle, on_roller, on_other):
     """Add the forces of roller j and the next.
 

@@ -20,7 +20,7 @@ from lambda_core.solver.cage.guides import (
     turning_body,
     write_frame,
 )
-from lambda_core.solver.layout import guide_law, helper, part
+from lambda_core.solver.layout import guide_law, helper, large_helper, part
 from lambda_core.solver.roller.motion import axis_of, from_own
 from lambda_core.solver.vec import add, combine, components, cross, inertial, scale, store, subtract
 
@@ -74,7 +74,7 @@ def _push_cage(row, scratch):
         scratch.pushes[0, i] += scratch.pushes[1, i]
 
 
-@helper
+@large_helper
 def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
     """Add a pocket's forces.
 

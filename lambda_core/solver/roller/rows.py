@@ -14,7 +14,7 @@ from lambda_core.solver.arrays.bundle import MECHANISMS, NR
 from lambda_core.solver.contact.contact_kinematics import contact_angle, contact_wrench, near
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import add_pushes, push_waves
-from lambda_core.solver.layout import cells_of, grid_of, helper, losses_of, running_of
+from lambda_core.solver.layout import cells_of, grid_of, helper, large_helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing
 from lambda_core.solver.motion.energy import contact_energy
 from lambda_core.solver.motion.force_elements import drag_force
@@ -38,7 +38,7 @@ def rollers_of(y, row):
     return y[row.first_state : row.first_state + NR * row.balls].view(ROLLER)
 
 
-@helper
+@large_helper
 def touch_roller(roller, ring, row, raceway, bundle, kin):
     """Return the approach of a roller.
 
@@ -51,7 +51,7 @@ def touch_roller(roller, ring, row, raceway, bundle, kin):
     return rib_kinematics(roller, ring, row, raceway, kin)
 
 
-@helper
+@large_helper
 def roller_wrench(raceway, place, bundle):
     """Run the laws of a contact.
 
@@ -153,7 +153,7 @@ def _neighbours(rollers, row, bundle, own, want):
     return 1
 
 
-@helper
+@large_helper
 def roller_drag(roller, row, bundle, on_roller):
     """Add drag and churning of a roller.
 
