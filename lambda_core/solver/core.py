@@ -117,7 +117,10 @@ def begin(
 
 
 def roller_unit(compiled: Core, name: str) -> Unit:
-    """Return a unit of rollers, whose missing code is compiled on as many processors as there are."""
+    """Return a unit of rollers.
+
+    Their missing code is compiled by several processes.
+    """
     from lambda_core.solver import entry
 
     begin(has_rollers=True)
