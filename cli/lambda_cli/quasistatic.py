@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import BandOption, Bands, CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import (
+    BandOption,
+    Bands,
+    BearingOption,
+    CaseArgument,
+    JsonOption,
+    SetOption,
+    Units,
+    UnitsOption,
+)
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 from lambda_core.domain.files import check_folder
 
@@ -22,6 +31,7 @@ DrawOption = Annotated[
 def quasistatic(
     case: CaseArgument,
     changes: SetOption = None,
+    bearing: BearingOption = None,
     draw: DrawOption = None,
     band: BandOption = Bands.MODEL,
     as_json: JsonOption = False,
@@ -34,18 +44,19 @@ def quasistatic(
     Prints loads, contact angles, films and friction at t = 0, without time and cage.
 
     For a machine it solves elastic shaft, bearings, housing, preload, thermal clearance and gear forces, and prints
-    reactions, deflection, lives and friction of every bearing. --draw writes one bearing with the load on its ring and
-    balls, or shaft, deflection and bending moment of a machine.
+    reactions, deflection, lives and friction of every bearing; --bearing NAME prints one of them in full, with the load
+    of every ball. --draw writes one bearing with the load on its ring and balls, or shaft, deflection and bending
+    moment of a machine.
     """
     from lambda_core import api
 
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.quasistatic(case, changes or (), band=band is Bands.MODEL, announce=speaker.say)
+        found = api.quasistatic(case, changes or (), bearing=bearing, band=band is Bands.MODEL, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if draw is not None:
-        _draw(api.machine_pictures(found), draw, case, units)
+        _draw(api.machine_pictures(found), draw, case, units, bearing)
 
 
 def modes(
@@ -83,11 +94,11 @@ def modes(
         _draw(api.machine_pictures(modes=found), draw, case, units)
 
 
-def _draw(views: list[ViewData], folder: Path, case: str, units: Units) -> None:
+def _draw(views: list[ViewData], folder: Path, case: str, units: Units, bearing: str | None = None) -> None:
     """Write pictures in the units that were asked for."""
     from lambda_core import api
     from lambda_core.views.other_units import in_units
 
     for view in views:
-        for path in api.draw(in_units(view, units.system), folder, api.view_stem([case])):
+        for path in api.draw(in_units(view, units.system), folder, api.view_stem([case], bearing)):
             typer.echo(str(path), err=True)

@@ -20,6 +20,11 @@ def number(value: float | None, digits: int = 1) -> str:
     return f"{round(value, digits) + 0.0:,.{digits}f}".replace(",", " ")  # + 0.0 turns -0.0 into 0.0
 
 
+def digits(value: float | None, count: int = 4) -> str:
+    """Write a number with some significant digits."""
+    return NONE if value is None else f"{0.0 if abs(value) < 5e-5 else value:.{count}g}"
+
+
 def counted(count: int, thing: str) -> str:
     """Write a count with its noun.
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Sequence
 
 from lambda_core.domain.number_text import LONG_LIFE, NONE, hours_alone, rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.results.model_band import FIELDS, LEAST_SHARE, NARROW, TEMPERATURES, Band, Banded, ModelBand
-
-MOSTLY = "ranges of parameters and laws exchanged; mostly from"
+from lambda_core.results.model_band import LEAST_SHARE, NARROW, TEMPERATURES, ModelBand
 
 
 def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
@@ -66,56 +64,6 @@ def band_text(band: ModelBand | None, quantity: str, units: UnitSystem = SI) -> 
     return ""
 
 
-def band_row(each: Sequence[Banded], name: str, unit: str, units: UnitSystem = SI) -> list[tuple[str, list[str]]]:
-    """Return the row of a number's model band.
-
-    It stands below the row of the number and has a cell for each bearing. The list is empty where none has a band.
-    """
-    bands = [getattr(one, f"{name}_band", []) for one in each]
-    return [("  model band", [ends(band, unit, units) for band in bands])] if any(bands) else []
-
-
-def other_band_rows(
-    each: Sequence[Banded], placed: Container[str], units: UnitSystem = SI
-) -> list[tuple[str, list[str]]]:
-    """Return results that have a row for their bands.
-
-    They are those whose names are not `placed`, each with its band below. Temperatures have text of their own.
-    """
-    found: list[tuple[str, list[str]]] = []
-    for quantity, name in FIELDS.items():
-        known = [_of_quantity(one.model_band, quantity) for one in each]
-        unit = next((one.unit for one in known if one is not None), "")
-        row = band_row(each, name, unit, units)
-        if name in placed or quantity in TEMPERATURES or not row:
-            continue
-        values = [
-            getattr(one, name, None) or (band.value if band else None) for one, band in zip(each, known, strict=True)
-        ]
-        texts = [NONE if value is None else f"{units.value(value, unit):.3g}" for value in values]
-        found += [(f"{quantity} {units.unit(unit)}", texts), *row]
-    return found
-
-
-def _of_quantity(band: ModelBand | None, quantity: str) -> Band | None:
-    """Return the band of a result, or None."""
-    return next((one for one in band.bands if one.quantity == quantity), None) if band is not None else None
-
-
-def named_sources(bands: Mapping[str, ModelBand | None], units: UnitSystem = SI) -> list[str]:
-    """Return the sources of a machine's bands.
-
-    They are those of every result of every bearing, computed temperatures, and what was left out.
-    """
-    found = []
-    for name, band in bands.items():
-        if band is None:
-            continue
-        found += [f"{name}, {text}" for text in _reasons(band)]
-        found += [f"{name}: {text}" for text in (temperature_text(band, units), *band.left_out) if text]
-    return found
-
-
 def temperature_text(band: ModelBand | None, units: UnitSystem = SI) -> str:
     """Return computed temperatures with their bands.
 
@@ -135,7 +83,12 @@ def source_lines(band: ModelBand | None) -> list[str]:
         return []
     if not band.bands:
         return list(band.left_out)
-    return [f"{100.0 * band.coverage:.0f} %, {MOSTLY}", *_reasons(band), *band.left_out]
+    share = f"{100.0 * band.coverage:.0f} %"
+    return [
+        f"{share}, ranges of parameters and laws exchanged; mostly from",
+        *_reasons(band),
+        *band.left_out,
+    ]
 
 
 def _reasons(band: ModelBand) -> list[str]:

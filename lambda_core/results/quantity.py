@@ -215,7 +215,9 @@ def shown(record: Record, name: str, units: UnitSystem = SI) -> str:
 
     It is one of a record; the band is there if one was computed.
     """
-    one, value = quantity_of(record, name), getattr(record, name)
-    plain = one.text(value, units)
-    band = getattr(record, f"{name}_band", [])
-    return banded(value, band, one.unit, plain, units) if band else plain
+    return banded_text(quantity_of(record, name), getattr(record, name), getattr(record, f"{name}_band", []), units)
+
+
+def banded_text(one: Quantity, value: Any, band: Sequence[float], units: UnitSystem = SI) -> str:
+    """Write a number with unit and model band."""
+    return banded(value, band, one.unit, one.text(value, units), units)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from pydantic import Field, PrivateAttr
@@ -35,6 +35,9 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at
 from lambda_core.solver.records import CONTACT_CHANNELS
+
+if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
 
 
 class RollerLoad(Record):
@@ -162,6 +165,13 @@ class StaticAnswer(Answer):
         """
         raise NotImplementedError
 
+    def of_bearing(self, name: str | None = None) -> QuasiStatic:
+        """Return the answer about one bearing.
+
+        An only bearing needs no name; UsageError where a name is needed, or nothing has it.
+        """
+        raise NotImplementedError
+
     def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
         """Return the same with the model band of each bearing."""
         raise NotImplementedError
@@ -186,12 +196,16 @@ class StaticAnswer(Answer):
 
 
 class QuasiStatic(BearingStatics, StaticAnswer):
-    """Quasi-static solution of a bearing that is alone."""
+    """Quasi-static solution of one bearing.
+
+    The bearing is alone, or belongs to a machine and has its place there, too.
+    """
 
     headline: str
     inner_ring_displacement_um: list[float] = same_as(BearingSummary, "inner_ring_displacement_um", "x, y, z")
     axial_play_um: float | None = Field(
-        description="from the middle to first contact without load: part of displacement x; null of two rows",
+        description="from the middle to first contact without load: part of displacement x; null of two rows, and in a "
+        "machine where x counts from first contact",
         default=None,
     )
     inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
@@ -205,6 +219,17 @@ class QuasiStatic(BearingStatics, StaticAnswer):
     def ring_displacement_um(self) -> list[float]:
         """Displacement x, y, z of the inner ring [um]."""
         return self.inner_ring_displacement_um
+
+    def of_bearing(self, name: str | None = None) -> QuasiStatic:
+        """Return the answer itself.
+
+        UsageError for a name that is not that of its bearing.
+        """
+        return self if name is None else self.bearing(name)  # type: ignore[return-value]
+
+    def own_lines(self, units: UnitSystem) -> list[str]:
+        """Return lines of text that machines add."""
+        return []
 
     def warned(self) -> list[str]:
         """Return all warnings."""
@@ -276,11 +301,19 @@ def quasistatic_of(found: Equilibrium, rating: Rating | None = None) -> QuasiSta
         case=model.name,
         headline="\n".join(headline(model)),
         inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
-        axial_play_um=1e6 * axial_play(model, model.geometry.clearance) if model.geometry.rated_rows == 1 else None,
+        axial_play_um=play_of(model),
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         iterations=found.iterations,
         assumptions=list(model.assumptions),
     ).of_model(model)
+
+
+def play_of(model: BearingModel) -> float | None:
+    """Return the axial play of balls [um].
+
+    None of two rows.
+    """
+    return 1e6 * axial_play(model, model.geometry.clearance) if model.geometry.rated_rows == 1 else None
 
 
 def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> dict[str, Any]:

@@ -148,11 +148,7 @@ class Summary(Record):
 
         None is longer than `width` where one is given.
         """
-        if self.orbit:
-            from lambda_core.results.machine_text import machine_text
-
-            return machine_text(self, width, units)
-        from lambda_core.results.text import summary_text
+        from lambda_core.results.run_text import summary_text
 
         return summary_text(self, width, units)
 

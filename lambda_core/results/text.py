@@ -1,27 +1,25 @@
-"""Print the machine interface as text."""
+"""Write common lines of pages, and an equilibrium's page."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import NONE, hours, number
+from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
-from lambda_core.results.band_text import band_text, banded, ends, source_lines, temperature_text
-from lambda_core.results.quantity import quantities, remaining, shown
+from lambda_core.results.band_text import band_text, ends, source_lines, temperature_text
+from lambda_core.results.quantity import Quantity, quantities, remaining, shown, shown_numbers
 
 if TYPE_CHECKING:
-    from lambda_core.results.bearing_summary import BearingSummary, Contact
-    from lambda_core.results.currents import Currents
+    from lambda_core.results.bearing_summary import Contact
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.model_band import ModelBand
     from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
     from lambda_core.results.rating import Rating
-    from lambda_core.results.ring_deformation import RingDeformation
+    from lambda_core.results.record import Record
     from lambda_core.results.ring_shape import RingShape
-    from lambda_core.results.summary import Summary
     from lambda_core.results.verdict import Verdict
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
@@ -33,104 +31,30 @@ PLACED = frozenset({
     "inner_ring_tilt_mrad", "loaded_balls", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
     "second_cage_speed_ratio", "support_power_W",
     # of a bearing in the equilibrium of a machine
-    "axial_load_N", "basic_life_h", "clearance_um", "contact_angle_deg", "displacement_um", "force_N",
+    "axial_load_N", "basic_life_h", "contact_angle_deg", "displacement_um", "force_N",
     "misalignment_mrad", "modified_life_h", "modified_reference_life_h", "moment_Nm", "position_mm",
     "radial_load_N", "reference_life_h", "static_safety", "viscosity_ratio",
 })  # fmt: skip
 _WIDTH = 100  # of sentences where no width is given
 
 
-def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return the text of one run.
+def other_lines(found: Record, units: UnitSystem, placed: Collection[str] = PLACED) -> list[str]:
+    """Return a line for every other number of a record.
 
-    Each subject has a line: the answer first, then where it may be wrong, then the rest.
-
-    Parameters
-    ----------
-    width : int, optional
-        Longer lines go on below; without it lines are as long as they are.
-    units : UnitSystem
-        In which numbers are shown.
+    It is declared and has no place of its own, as those in `placed` have.
     """
-    verdict = "converged" if summary.converged else "NOT CONVERGED"
-    window = (
-        f"(95 %, {summary.revolutions_averaged} cage revolutions)" if summary.revolutions_averaged else "(whole run)"
-    )
-    mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
-    lines = [
-        *verdict_lines(summary.verdict, units),
-        *_torque_lines(summary, (mean, window, verdict), units),
-        *breakdown_lines(summary.friction_breakdown_Nmm, units),
-        line("power loss", shown(summary, "power_loss_W", units)),
-        *rating_lines(summary.rating, units, summary.reference_life_h_band),
-        line(
-            "film",
-            f"minimum {shown(summary, 'min_film_um', units)}",
-            f"central {shown(summary, 'film_um', units)}",
-            f"Lambda {shown(summary, 'film_parameter')} (central)",
-        ),
-        *warning_lines([units.sentence(warning) for warning in summary.warnings], width),
-        *(
-            [line("input torque", shown(summary, "input_torque_Nmm", units))]
-            if summary.input_torque_Nmm is not None
-            else []
-        ),
-        line("cage speed", f"{shown(summary, 'cage_speed_ratio')} of inner ring", *_cages(summary)),
-        line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
-        *lines_under("ovality", [_oval(bent, units) for bent in summary.bent]),
-        line("pressure", f"p_max {shown(summary, 'max_pressure_GPa', units)}"),
-        *_capacitance(summary),
-        *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
-        *_currents(summary.currents),
-        *([line("dampers", shown(summary, "support_power_W", units))] if summary.support_power_W is not None else []),
-        *other_lines(summary, units),
-        *element_lines(summary, units),
-        *watched_lines(summary),
-        *lines_under("failed", summary.plugin_faults),
-        *shoulder_lines(summary.shoulders, units),
-        *band_lines(summary.model_band, units),
-        line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
-        *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
-        line("wall time", *_wall(summary)),
-        *assumption_lines(summary.assumptions, summary.file),
-        line("result", summary.file),
-        *lines_under("not converged", summary.reasons),
-    ]
-    return "\n".join(wrapped(lines, width))
+    return [line(one.column, by_axis(one, value, units)) for one, value in remaining(found, placed)]
 
 
-def other_lines(found: Summary | QuasiStatic, units: UnitSystem) -> list[str]:
-    """Return a line for every other number.
+def by_axis(one: Quantity, value: Any, units: UnitSystem) -> str:
+    """Write a number with its unit.
 
-    It is declared and has no place of its own.
+    A vector has its axes, too.
     """
-    return [line(one.column, one.text(value, units)) for one, value in remaining(found, PLACED)]
-
-
-def _capacitance(summary: Summary) -> list[str]:
-    """Return the capacitances or a reason."""
-    found = (summary.contact_capacitance_pF, summary.capacitance_note, summary.bearing_capacitance_nF is not None)
-    if not any(found):
-        return []
-    each, bearing = (shown(summary, name) for name in ("contact_capacitance_pF", "bearing_capacitance_nF"))
-    return [line("capacitance", f"contacts {each}", f"bearing {bearing}")]
-
-
-def _torque_lines(summary: Summary, plain: Sequence[str], units: UnitSystem) -> list[str]:
-    """Return the torque with its uncertainty.
-
-    The scatter of its average and a model band are separate.
-    """
-    mean, window, verdict = plain
-    band = summary.friction_torque_Nmm_band
-    if not band:
-        return [line("friction torque", mean, window, verdict)]
-    width = summary.friction_torque_ci_Nmm
-    scatter = "" if width is None else f"± {units.value(width, 'N mm'):.2g} {units.unit('N mm')}"
-    return [
-        line("friction torque", banded(summary.friction_torque_Nmm, band, "N mm", mean, units), verdict),
-        line("  scatter", scatter or NONE, window),
-    ]
+    if not one.axes or not value:
+        return one.text(value, units)
+    each = (f"{axis} {one.number(part, units)}" for axis, part in zip(one.axes, value, strict=True))
+    return f"{'  '.join(each)} {units.unit(one.unit)}"
 
 
 def band_lines(band: ModelBand | None, units: UnitSystem = SI) -> list[str]:
@@ -140,57 +64,6 @@ def band_lines(band: ModelBand | None, units: UnitSystem = SI) -> list[str]:
         *([line("temperatures", temperatures)] if temperatures else []),
         *lines_under("model band", source_lines(band)),
     ]
-
-
-def _iteration(summary: Summary) -> str:
-    """Return the work of Newton's early ends.
-
-    Put in or taken, where it is known.
-    """
-    found = summary.iteration_residual
-    return "" if found is None else f"ends of iterations {shown(summary, 'iteration_residual')}"
-
-
-def _currents(found: Currents | None) -> list[str]:
-    """Return what the circuit did, where there is one."""
-    if found is None:
-        return []
-    low, high = found.bearing_voltage_V
-    volts, amperes = found.breakdown_voltage_V, found.peak_current_A
-    lines = [
-        line("bearing voltage", f"{low:.1f} .. {high:.1f} V", f"{found.discharges_per_s:.4g} discharges per second")
-    ]
-    if volts and amperes:
-        arcs = f"{found.arc_power_mW:.3g} mW in arcs"
-        lines.append(line("  discharges", f"at {volts[1]:.3g} V", f"{amperes[1]:.3g} A", arcs))
-    return lines
-
-
-def watched_lines(summary: Summary | BearingSummary) -> list[str]:
-    """Return the numbers of observers, and the events."""
-    observed = [f"{each.observer} {each.name} {_four(each.value)} {each.unit}" for each in summary.observed]
-    said = [
-        f"began {event.count} times, first at {_four(event.first_s)} s" if event.count else "did not happen"
-        for event in summary.events
-    ]
-    events = [f"{event.event} {words}" for event, words in zip(summary.events, said, strict=True)]
-    return [*lines_under("observed", observed), *lines_under("events", events)]
-
-
-def element_lines(found: Summary, units: UnitSystem = SI) -> list[str]:
-    """Return mean force and power of every force element."""
-    return [
-        line(
-            f"element {name}",
-            f"force x, y, z {', '.join(units.number(value, 'N', 1) for value in one.force_N)} {units.unit('N')}",
-            f"power {one.power_W:.3g} W into its bodies",
-        )
-        for name, one in found.elements.items()
-    ]
-
-
-def _four(value: float | None) -> str:
-    return NONE if value is None else f"{value:.4g}"
 
 
 def rating_lines(rating: Rating | None, units: UnitSystem = SI, life_band: Sequence[float] = ()) -> list[str]:
@@ -254,18 +127,26 @@ def life_factor_text(factor: float | None, contamination: float | None, is_given
     return f"a_ISO {number(factor, 2)} with {contamination_text(contamination, is_given=is_given)}"
 
 
+def verdict_line(verdicts: Mapping[str, Verdict | None]) -> list[str]:
+    """Return the verdicts on a machine's bearings in short."""
+    judged = [f"{name} {'MET' if one.met else 'NOT MET'}" for name, one in verdicts.items() if one is not None]
+    return [line("verdict", *judged)] if judged else []
+
+
+def life_line(life: float | None) -> list[str]:
+    """Return the life of all bearings.
+
+    Nothing without one.
+    """
+    return [] if life is None else [line("system life", f"{hours(life)} of all bearings together (ISO/TS 16281, 90 %)")]
+
+
 def verdict_lines(verdict: Verdict | None, units: UnitSystem = SI) -> list[str]:
     """Return the verdict, then the margins to limits."""
     if verdict is None:
         return []
     sentence, margins = verdict.lines(units)
     return [line("verdict", sentence), *([line("margins", *margins)] if margins else [])]
-
-
-def _oval(found: RingDeformation, units: UnitSystem) -> str:
-    """Say how oval an elastic part was."""
-    mean, most = (units.text(value, "um", 2) for value in (found.mean_ovality_um, found.largest_ovality_um))
-    return f"{found.part} {mean} on average, {most} at most"
 
 
 def bent_lines(shapes: Iterable[RingShape], units: UnitSystem) -> list[str]:
@@ -285,17 +166,30 @@ def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
 
 
 def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
-    """Return the text of an equilibrium.
+    """Return the page of one bearing in equilibrium.
 
-    It has a line per subject and a table of contacts or rollers; `width` is as above.
+    It has a line per subject and a table of contacts or rollers; without a width, lines are as long as they are.
     """
-    tilt_y, tilt_z = found.inner_ring_tilt_mrad
-    own = found.rollers
+    where = "" if found.rollers is None else "--json lists them"
+    lines = [*statics_lines(found, width, units), *assumption_lines(found.assumptions, where=where)]
+    return "\n".join(wrapped(lines, width))
+
+
+def statics_lines(found: QuasiStatic, width: int | None, units: UnitSystem, *, is_section: bool = False) -> list[str]:
+    """Return what a page says of one bearing in equilibrium.
+
+    A section of a machine's page begins with its headline; it has no table of contacts, and the force on the shaft
+    stands above it.
+    """
+    own, verdict = found.rollers, verdict_lines(found.verdict, units)
+    head = units.sentence(found.headline).splitlines()
     element = "ball" if own is None else "roller"
     table = _contact_rows(found.contacts, units) if own is None else _roller_rows(own.loads, units)
-    lines = [
-        *verdict_lines(found.verdict, units),
-        units.sentence(found.headline),
+    tilt_y, tilt_z = found.inner_ring_tilt_mrad
+    loads = {one.name: line(one.column, by_axis(one, value, units)) for one, value in shown_numbers(found, ("load",))}
+    return [
+        *([*head, *verdict] if is_section else [*verdict, *head]),
+        *(text for name, text in loads.items() if not is_section or name != "force_N"),
         line(
             "equilibrium",
             f"{found.loaded_balls} {element}s loaded",
@@ -307,6 +201,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
             *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
             f"tilt y {tilt_y:z.4f}  z {tilt_z:z.4f} mrad",
         ),
+        *([line("contact angles", shown(found, "contact_angle_deg", units))] if is_section else []),
         *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),
@@ -314,13 +209,12 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         *(_rib_lines(own, units) if own is not None else []),
         *shoulder_lines(found.shoulders, units),
         *_capacitance_line(found, units),
-        *other_lines(found, units),
+        *other_lines(found, units, PLACED | loads.keys()),
+        *found.own_lines(units),
         *band_lines(found.model_band, units),
-        *table,
+        *([] if is_section else table),
         *warning_lines([units.sentence(warning) for warning in found.warnings], width),
-        *assumption_lines(found.assumptions, where="" if own is None else "--json lists them"),
     ]
-    return "\n".join(wrapped(lines, width))
 
 
 def _contact_rows(contacts: Sequence[Contact], units: UnitSystem) -> list[str]:
@@ -452,7 +346,7 @@ def assumption_lines(assumptions: Sequence[str], file: str = "", where: str = ""
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 
-def _place(position: Sequence[float | None], units: UnitSystem) -> str:
+def place_text(position: Sequence[float | None], units: UnitSystem) -> str:
     """Write a displacement [um] along x, y and z."""
     axes = (f"{axis} {units.number(value, 'um', 2)}" for axis, value in zip("xyz", position, strict=True))
     return f"{'  '.join(axes)} {units.unit('um')}"
@@ -464,30 +358,5 @@ def place_with_play(place: Sequence[float], play: float | None, units: UnitSyste
     The play counts where the ring has moved through half of it.
     """
     if not play or abs(place[0]) < 0.5 * play:
-        return [_place(place, units)]
-    return [_place(place, units), f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]
-
-
-def _tilt(summary: Summary) -> str:
-    y, z = (number(angle, 2) for angle in summary.inner_ring_tilt_mrad)
-    return f"tilt y {y}  z {z} mrad"
-
-
-def _cages(summary: Summary) -> list[str]:
-    """Return the cage's slip and the second cage's speed."""
-    ratio = summary.cage_speed_over_epicyclic
-    words = f"epicyclic {shown(summary, 'epicyclic_ratio')}, slip"
-    slip = "" if ratio is None else f"({words} {100.0 * (1.0 - ratio):.2f} %)"
-    if summary.second_cage_speed_ratio is None:
-        return [slip]
-    return [slip, f"second row {shown(summary, 'second_cage_speed_ratio')}"]
-
-
-def _wall(summary: Summary) -> list[str]:
-    per_second, per_turn = summary.wall_per_simulated_second, summary.wall_per_revolution_s
-    parts = [f"{summary.wall_s:.2f} s for {summary.simulated_s:.4g} s"]
-    if per_second is not None:
-        parts.append(f"{per_second:.2f} s per simulated second")
-    if per_turn is not None:
-        parts.append(f"{1e3 * per_turn:.3g} ms per revolution")
-    return parts
+        return [place_text(place, units)]
+    return [place_text(place, units), f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]

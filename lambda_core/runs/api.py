@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.analysis.thermal.temperatures import ready, ready_model, ready_rollers, resolved
-from lambda_core.case.case_io import is_machine
+from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
@@ -37,6 +37,7 @@ def quasistatic(
     source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     *,
+    bearing: str | None = None,
     band: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> QuasiStatic | MachineEquilibrium:
@@ -49,6 +50,8 @@ def quasistatic(
     ----------
     source, overrides
         As for :func:`check`, or a resolved model.
+    bearing : str, optional
+        One of a machine: the answer is about it alone, with the load of every ball.
     band : bool
         Also compute the 90 % model band, see :func:`model_band`; it costs 0.4 s for most bearings, up to 3 s for some.
     announce : callable, optional
@@ -61,6 +64,8 @@ def quasistatic(
 
     Raises
     ------
+    UsageError
+        For a bearing that the machine does not have, or a name where there is one bearing without a machine.
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
@@ -68,11 +73,16 @@ def quasistatic(
 
     if is_machine(source):
         from lambda_core.analysis.rotor.api import machine_equilibrium
+        from lambda_core.analysis.rotor.bearing_alone import bearing_number
         from lambda_core.analysis.thermal.temperatures import ready_machine_of
 
         machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+        if bearing is not None:
+            bearing_number(machine, bearing)  # before anything is solved
         with naming_laws(*machine.bearing_models.values()):
-            return machine_equilibrium(machine, band=band, announce=announce)
+            solved = machine_equilibrium(machine, band=band, announce=announce)
+        return solved if bearing is None else solved.of_bearing(bearing)
+    refuse_bearing(bearing)
     rollers = _roller_answer(source, overrides, announce, band=band)
     if rollers is not None:
         return rollers

@@ -10,7 +10,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.results.reader import Result
-from lambda_core.results.text import summary_text
+from lambda_core.results.run_text import summary_text
 
 
 def test_from_init_to_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,18 +7,28 @@ from __future__ import annotations
 
 import re
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
+from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain.unit_systems import US
+from lambda_core.domain.wrapping import HEAD
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.model_band import Band, ModelBand
 
 
 def box() -> dict[str, Any]:
     return tomllib.loads(geared_shaft("box"))
+
+
+@pytest.fixture(scope="module")
+def box_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    found = tmp_path_factory.mktemp("texts") / "box.toml"
+    found.write_text(geared_shaft("box"))
+    return found
 
 
 def test_hold_and_motion_of_a_bearing_name_its_support() -> None:
@@ -36,21 +46,72 @@ def test_both_ends_of_a_band_have_the_chosen_unit() -> None:
     torque = Band(quantity="friction torque", unit="N mm", value=100.0, low=90.4, high=113.0, contributors=[])
     bands = {one.name: ModelBand(case="box", coverage=0.9, bands=[torque], left_out=[]) for one in found.bearings}
     text = found.with_bands(bands).text(units=US)
-    low, high = re.findall(r"^model band +([\d.]+) \.\. ([\d.]+) lbf in of all bearings", text, re.MULTILINE)[0]
+    low, high = re.findall(r"^friction torque .*\(model ([\d.]+) \.\. ([\d.]+)\) +of all", text, re.MULTILINE)[0]
     assert float(high) / float(low) == pytest.approx(113.0 / 90.4, rel=0.05)
 
 
 def test_lives_are_written_in_one_form() -> None:
     """Write lives in one form everywhere.
 
-    Two digits, groups of three, "above" beyond a million hours: in the table, in its sum, in the duty cycle.
+    Two digits, groups of three, "above" beyond a million hours: of each bearing and in their sum.
     """
     found = api.quasistatic(box())
     text = found.text()
-    cells = re.findall(r"^L_10rh h +(.*)$", text, re.MULTILINE)[0]
-    assert re.fullmatch(r"(?:(?:above )?\d{1,3}(?: \d{3})*\s*)+", cells)
-    assert re.search(r"^system life +(?:above )?\d{1,3}(?: \d{3})* h \(L_10rh", text, re.MULTILINE)
-    assert ">" not in cells
+    life = r"(?:above )?\d{1,3}(?: \d{3})* h"
+    assert len(re.findall(rf"L_10rh {life}  L_nmrh {life}$", text, re.MULTILINE)) == 2
+    assert re.search(rf"^system life +{life} of all bearings", text, re.MULTILINE)
+    assert ">" not in text
+
+
+def heads(lines: list[str]) -> list[str]:
+    """Return the heads of lines in their order."""
+    return [line[:HEAD].strip() for line in lines if line[:1].isalpha() and line[HEAD - 1 : HEAD] == " "]
+
+
+def test_a_bearing_has_one_page_alone_and_in_a_machine(box_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Print the lines of a bearing alone.
+
+    Its place and loads in the machine are between them.
+    """
+    assert main(["quasistatic", str(box_file), "--bearing", "left", "--band", "none", "--quiet"]) == 0
+    page = capsys.readouterr().out.splitlines()
+    alone = api.quasistatic("6208-axial-1300", ["operation.speed=3000 rpm"]).text().splitlines()
+    own = ["radial load", "axial load", "force on shaft", "moment about", "clearance", "stiffness"]
+    assert [head for head in heads(page) if head not in own] == heads(alone)
+    assert [head for head in heads(page) if head in own] == own
+    assert len([line for line in page if re.fullmatch(r" +\d .* (?:inner|outer) .*", line)]) == 18
+    machine = api.quasistatic(box_file).text().split("\nleft: ")[1].split("\n\nright: ")[0].splitlines()
+    rest = [line for line in page if not line.startswith(("left: ", " ", "force on shaft", "assumed"))]
+    assert set(rest) <= set(machine)
+
+
+def test_the_answer_about_one_bearing_has_the_numbers_of_the_machine(box_file: Path) -> None:
+    machine, one = api.quasistatic(box_file), api.quasistatic(box_file, bearing="right")
+    assert dict(one).items() >= dict(machine.bearing("right")).items()
+    assert sorted(one.assumptions) == sorted(api.check(box_file).bearings[1].model.assumptions)
+    assert one.of_bearing("right") is one
+    assert list(one.each) == ["right"]
+    stronger = one.with_(gears={"wheel": {"power": "20 kW"}})
+    assert stronger.radial_load_N > one.radial_load_N
+
+
+@pytest.mark.parametrize(("case", "name", "words"), [
+    ("", "rigth", '"rigth" is not a known bearing; nearest: right'),
+    ("6208-axial-1300", "left", 'this case has one bearing: leave out --bearing "left"'),
+])  # fmt: skip
+def test_a_wrong_bearing_is_refused_before_anything_is_solved(
+    box_file: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    case: str,
+    name: str,
+    words: str,
+) -> None:
+    monkeypatch.setattr("lambda_core.solver.drivers.machine_statics.solve_machine", None)
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.solve", None)
+    assert main(["quasistatic", case or str(box_file), "--bearing", name, "--quiet"]) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.strip()) == ("", words)
 
 
 def test_damping_is_shown_in_other_units_too() -> None:

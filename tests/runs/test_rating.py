@@ -11,7 +11,8 @@ from lambda_core import api
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.discovery.manager import registry
 from lambda_core.results.rating import Rating
-from lambda_core.results.text import hours, rating_lines, summary_text
+from lambda_core.results.run_text import summary_text
+from lambda_core.results.text import hours, rating_lines
 from lambda_core.solver.drivers.equilibrium import solve
 
 CASE = {

@@ -93,7 +93,8 @@ def test_every_bearing_of_a_machine_is_judged() -> None:
     found = api.quasistatic(tomllib.loads(geared_shaft("box")), ["requirements.life=20000 h"])
     assert isinstance(found, MachineEquilibrium)
     assert [one.verdict.met for one in found.bearings] == [True, True]
-    assert found.text().startswith("verdict left     MET: L_nmrh")
+    assert "\nverdict          left MET   right MET\n" in found.text()
+    assert found.text().count("\nverdict          MET: L_nmrh") == 2
 
 
 def test_one_bearing_compare_and_machines_assume_the_same_contamination_and_say_so() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from lambda_core.case.case_io import refuse_bearing
@@ -31,8 +31,16 @@ def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
     if names == [""]:
         refuse_bearing(name)
         return 0
+    return number_among(names, name, model.name)
+
+
+def number_among(names: Sequence[str], name: str | None, case: str) -> int:
+    """Return the place of a bearing's name among all.
+
+    An only bearing needs no name. The errors are those of :func:`bearing_number`.
+    """
     if name is None and len(names) > 1:
-        raise UsageError(f"{model.name} has {len(names)} bearings; choose one with --bearing ({', '.join(names)})")
+        raise UsageError(f"{case} has {len(names)} bearings; choose one with --bearing ({', '.join(names)})")
     if name is not None and name not in names:
         raise UsageError(unknown_name("bearing", name, names))
     return 0 if name is None else names.index(name)

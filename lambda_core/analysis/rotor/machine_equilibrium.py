@@ -11,9 +11,11 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.analysis.rating.engineering import mounted_rating
+from lambda_core.analysis.rotor.bearing_alone import number_among
 from lambda_core.analysis.rotor.machine_modes import AXES, six
 from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.number_text import digits
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import internal_forces
@@ -26,10 +28,11 @@ from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import ModelBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
-from lambda_core.results.quasistatic import BearingStatics, StaticAnswer, bearing_statics
+from lambda_core.results.quasistatic import BearingStatics, QuasiStatic, StaticAnswer, bearing_statics, play_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
+from lambda_core.results.text import line
 from lambda_core.results.verdict import Verdict
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.machine_statics import MachineState
@@ -114,6 +117,24 @@ class BearingEquilibrium(BearingStatics, MountedState):
         return self.displacement_um
 
 
+class MountedQuasiStatic(QuasiStatic, MountedState):
+    """Quasi-static solution of one bearing of a machine.
+
+    It has the fields of a bearing that is alone, and its place and loads in the machine. Displacement and tilt are
+    those of the inner ring against the outer ring.
+    """
+
+    @property
+    def each(self) -> Mapping[str, BearingStatics]:
+        """The bearing by its name."""
+        return {self.name: self}
+
+    def own_lines(self, units: UnitSystem) -> list[str]:
+        """Return the stiffness of the bearing."""
+        each = (f"{axis} {digits(units.value(1e-6 * self.stiffness[k][k], 'N/um'), 3)}" for k, axis in enumerate("xyz"))
+        return [line("stiffness", f"{'  '.join(each)} {units.unit('N/um')}")]
+
+
 class BodyMoved(Record):
     """Displacement of a body or place as drawn."""
 
@@ -166,6 +187,32 @@ class MachineEquilibrium(StaticAnswer):
         UsageError with the nearest name where there is none.
         """
         return cast("BearingEquilibrium", super().bearing(name))
+
+    def of_bearing(self, name: str | None = None) -> MountedQuasiStatic:
+        """Return the answer about one bearing.
+
+        An only bearing needs no name; UsageError where a name is needed, or nothing has it.
+        """
+        number = number_among(list(self.each), name, self.case)
+        one = self.bearings[number]
+        mounted: MountedBearing | None = None if self._model is None else self._model.bearings[number]
+        found = MountedQuasiStatic(
+            **dict(one),
+            case=self.case,
+            headline=f"{one.name}: {one.title}, {one.position_mm:.5g} mm from the left end of {self.case}",
+            inner_ring_displacement_um=one.displacement_um,
+            axial_play_um=None if mounted is None or mounted.takes or one.rollers else play_of(mounted.model),
+            inner_ring_tilt_mrad=one.misalignment_mrad,
+            iterations=self.iterations,
+            assumptions=[text for whose, text in map(self.assumed, self.assumptions) if one.name in whose],
+        )
+        return found if mounted is None else found.of_model(mounted.model)
+
+    def assumed(self, assumption: str) -> tuple[list[str], str]:
+        """Return an assumption's bearings and its text."""
+        head, mark, text = assumption.partition(": ")
+        names = head.split(", ")
+        return (names, text) if mark and self.each.keys() >= set(names) else ([], assumption)
 
     def warned(self) -> list[str]:
         """Return all warnings.
