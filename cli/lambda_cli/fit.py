@@ -106,3 +106,6 @@ def fit(
         typer.echo(str(api.report(found, report, overwrite=force, units=units.value)), err=True)
     if found.is_interrupted:
         raise PartialResultError("the fit was interrupted: the values are the best so far")
+    if found.unsolved_lines:
+        lines = ", ".join(map(str, found.unsolved_lines))
+        raise PartialResultError(f"the fit leaves out lines of {found.file} without a solution: {lines}")

@@ -2,8 +2,8 @@
 
 The only reader of measurements, tables over time, voltages and load spectra.
 
-Commas separate cells, or semicolons or tabs where the first line has them. Empty lines and those that begin with # are
-left out.
+Commas separate cells, or semicolons or tabs where the first line has them. Empty lines, those with
+empty cells only, as spreadsheets write them, and those that begin with # are left out.
 """
 
 from __future__ import annotations
@@ -41,5 +41,6 @@ def csv_rows(text: str) -> tuple[Rows, Mistakes]:
         except (csv.Error, ValueError) as error:
             mistakes.append((line, f'{error}: remove the " marks, numbers need none'))
             continue
-        rows.append((line, [cell.strip() for cell in cells]))
+        if any(map(str.strip, cells)):
+            rows.append((line, [cell.strip() for cell in cells]))
     return rows, mistakes

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.units import show
+from lambda_core.fitting.discrepancy import Prediction
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.least_squares import fit as fit_values
+from lambda_core.fitting.left_out import left_out_sentences, with_solvable_rows
 from lambda_core.fitting.measurements import Measurements, read_measurements
 from lambda_core.fitting.model_calls import Model
 from lambda_core.fitting.next_point import next_point
@@ -48,6 +50,7 @@ from lambda_core.studies.pool import usable_cores
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
 
+_MOST_EQUAL = 5  # groups of equal lines that are named
 Announce = Callable[[str], None]
 Progress = Callable[[FitProgress], None]
 
@@ -98,8 +101,9 @@ def _fitted(
     problem = CaseProblem(subject, data, [subject.varied(text) for text in vary], rows)
     if announce is not None:
         announce(f"fitting to {len(problem.entries)} measured values; parameters: {len(problem.parameters)}")
-    try:
-        found = fit_values(
+
+    def search(problem: CaseProblem) -> Fit:
+        return fit_values(
             problem.predict if progress is None else _reporting(problem, rows, progress),
             problem.parameters,
             problem.data,
@@ -107,17 +111,21 @@ def _fitted(
             input_slopes=problem.input_slopes if data.condition_errors else None,
             is_costly=True,
         )
+
+    try:
+        problem, found, reasons = with_solvable_rows(problem, search, 1 + len(vary), announce)
     except ValueError as error:
         raise UsageError(f"{data.name}: {error}") from None
+    doubts = left_out_sentences(data.name, reasons, len(problem.entries))
     # what an interruption leaves out: the values are known
     rest: dict[str, Any] = {"sizes": {}, "suggestion": None, "predictions": [], "posterior": None}
     try:
-        for name, part in _rest(subject, problem, found, suggest, unseen, sample, announce):
+        for name, part in _rest(subject, problem, found, suggest, unseen, sample, announce, doubts):
             rest[name] = part
     except KeyboardInterrupt:
         found = replace(found, is_interrupted=True)
-    report = _report(subject, data, problem, found, rest.pop("suggestion"), rest.pop("sizes"))
-    return report.model_copy(update=rest)
+    report = _report(subject, problem, found, rest.pop("suggestion"), rest.pop("sizes"), doubts)
+    return report.model_copy(update={"unsolved_lines": sorted(reasons), **rest})
 
 
 def _read(source: str | Path | Measurements, subject: Subject) -> Measurements:
@@ -132,8 +140,12 @@ def _rest(
     unseen: Measurements | None,
     sample: int,
     announce: Announce | None,
+    doubts: list[str],
 ) -> Iterator[tuple[str, Any]]:
-    """Yield what follows from fitted values, by name."""
+    """Yield what follows from fitted values, by name.
+
+    What has no solution adds a sentence to `doubts`.
+    """
     if found.is_interrupted:
         return
     sizes = discrepancy_sizes(problem, found)
@@ -141,11 +153,17 @@ def _rest(
     if suggest:
         yield "suggestion", _suggestion(problem, found)
     if unseen is not None:
-        yield "predictions", _unseen(subject, problem, found, sizes, unseen)
+        try:
+            yield "predictions", _unseen(subject, problem, found, sizes, unseen, doubts)
+        except SolverError as error:  # none of them has a solution
+            doubts.append(f"no points were predicted: {error}")
     if sample:
         if announce is not None:
             announce("sampling the posterior")
-        yield "posterior", _posterior(problem, found, sample)
+        try:
+            yield "posterior", _posterior(problem, found, sample)
+        except SolverError as error:
+            doubts.append(f"no samples were drawn: {error}")
 
 
 def _reporting(problem: CaseProblem, rows: Rows, progress: Progress) -> Model:
@@ -185,17 +203,26 @@ def _posterior(problem: CaseProblem, found: Fit, count: int) -> SampledPosterior
 
 
 def _unseen(
-    subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float], data: Measurements
+    subject: Subject,
+    problem: CaseProblem,
+    found: Fit,
+    sizes: dict[str, float],
+    data: Measurements,
+    doubts: list[str],
 ) -> list[PredictedPoint]:
     """Return unseen measured points with predictions.
 
     The fit has not used them.
     """
-    asked = problem.elsewhere(data)
-    values, new = predicted(problem, found, sizes, asked)
+
+    def predict(asked: CaseProblem) -> tuple[FloatArray, Prediction]:
+        return predicted(problem, found, sizes, asked)
+
+    asked, (values, new), reasons = with_solvable_rows(problem.elsewhere(data), predict, 1)
+    doubts += left_out_sentences(data.name, reasons, len(asked.entries))
     return [
         PredictedPoint(
-            **_where(subject, data, entry),
+            **_where(subject, asked, entry),
             measured=float(asked.data.values[i]),
             predicted=float(values[i]),
             band=[float(low), float(high)],
@@ -205,8 +232,9 @@ def _unseen(
     ]
 
 
-def _where(subject: Subject, data: Measurements, entry: Entry) -> dict[str, Any]:
+def _where(subject: Subject, problem: CaseProblem, entry: Entry) -> dict[str, Any]:
     """Return line, label, conditions and quantity of a measured value."""
+    data = problem.measurements
     return {
         "line": data.lines[entry.row],
         "label": data.labels[entry.row],
@@ -241,11 +269,11 @@ def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
 
 def _report(
     subject: Subject,
-    data: Measurements,
     problem: CaseProblem,
     found: Fit,
     suggestion: SuggestedPoint | None,
     sizes: dict[str, float],
+    doubts: Sequence[str],
 ) -> FitReport:
     share = relative(found.predicted - found.data.values, found.data.values)
     left_out = relative(found.left_out, found.data.values)
@@ -254,11 +282,11 @@ def _report(
     return FitReport(
         case=subject.name,
         title=subject.title,
-        file=data.name,
-        sha256=data.sha256,
+        file=problem.measurements.name,
+        sha256=problem.measurements.sha256,
         date=datetime.date.today().isoformat(),
         sentence=sentence(found),
-        warnings=_warnings(problem, found),
+        warnings=[*doubts, *_warnings(problem, found)],
         parameters=_parameters(problem, found),
         tests=[
             PatternTest(
@@ -273,7 +301,7 @@ def _report(
             for d in found.directions
         ],
         condition_quantities=problem.quantities,
-        points=_points(subject, data, problem, found, sizes),
+        points=_points(subject, problem, found, sizes),
         predictions=[],
         discrepancy_pct={name: 100.0 * size for name, size in sizes.items()},
         next_point=suggestion,
@@ -317,9 +345,7 @@ def _parameters(problem: CaseProblem, found: Fit) -> list[FittedParameter]:
     return rows
 
 
-def _points(
-    subject: Subject, data: Measurements, problem: CaseProblem, found: Fit, sizes: dict[str, float]
-) -> list[FittedPoint]:
+def _points(subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str, float]) -> list[FittedPoint]:
     quantile = found.quantile()
     own = quantile * found.prediction_deviation(found.jacobian)
     new = quantile * found.prediction_deviation(found.jacobian, found.errors)
@@ -329,7 +355,7 @@ def _points(
     standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
     return [
         FittedPoint(
-            **_where(subject, data, entry),
+            **_where(subject, problem, entry),
             measured=float(found.data.values[i]),
             error=float(found.errors[i] * found.scale),
             predicted=float(found.predicted[i]),
@@ -368,4 +394,24 @@ def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
             f"{graded.short} ends at a limit of its range ({graded.low:.4g}..{graded.high:.4g}): a value beyond would "
             "fit better, so another term may be wrong."
         )
-    return warnings
+    return [*warnings, *_equal(problem.measurements), *_doubts(problem, found)]
+
+
+def _equal(data: Measurements) -> list[str]:
+    """Return a sentence about lines that agree in every column."""
+    return [
+        f"Lines {', '.join(map(str, lines))} of {data.name} agree in every column, and each counts as a measurement: "
+        "remove copies."
+        for lines in data.equal_lines()[:_MOST_EQUAL]
+    ]
+
+
+def _doubts(problem: CaseProblem, found: Fit) -> list[str]:
+    """Return what the solver said about the points."""
+    doubts = problem.doubts(found.values)
+    if not doubts:
+        return []
+    line, said = next(iter(doubts.items()))
+    others = [str(one) for one in doubts][1:]
+    more = f" The same holds for line{'s' if others[1:] else ''} {', '.join(others)}." if others else ""
+    return [f"{problem.measurements.name} line {line}: {'; '.join(said)}.{more}"]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from dataclasses import dataclass, field
+from collections.abc import Container
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,39 @@ class Measurements:
 
     def __len__(self) -> int:
         return len(self.lines)
+
+    @property
+    def count(self) -> int:
+        """Number of measured values."""
+        return sum(int(np.isfinite(values).sum()) for values in self.measured.values())
+
+    def without(self, rows: Container[int]) -> Measurements:
+        """Return the same without some points."""
+        kept = [row for row in range(len(self)) if row not in rows]
+
+        def part(columns: dict[str, FloatArray]) -> dict[str, FloatArray]:
+            return {name: column[kept] for name, column in columns.items()}
+
+        return replace(
+            self,
+            lines=tuple(self.lines[row] for row in kept),
+            labels=tuple(self.labels[row] for row in kept),
+            conditions=part(self.conditions),
+            condition_errors=part(self.condition_errors),
+            measured=part(self.measured),
+            errors=part(self.errors),
+            shares=part(self.shares),
+        )
+
+    def equal_lines(self) -> list[tuple[int, ...]]:
+        """Return the lines of points that agree in every column."""
+        groups = (self.conditions, self.condition_errors, self.measured, self.errors, self.shares)
+        columns = [column.tolist() for group in groups for column in group.values()]
+        found: dict[tuple[object, ...], list[int]] = {}
+        for row, line in enumerate(self.lines):
+            numbers = (None if math.isnan(column[row]) else column[row] for column in columns)
+            found.setdefault((self.labels[row], *numbers), []).append(line)
+        return [tuple(lines) for lines in found.values() if len(lines) > 1]
 
 
 @dataclass(frozen=True)

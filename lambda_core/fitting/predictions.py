@@ -6,6 +6,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.log_sentences import SOLVER, gathered
 from lambda_core.fitting.discrepancy import Place, Prediction, coordinates, predict, sizes_known_before
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.problem import CaseProblem
@@ -24,7 +25,8 @@ def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
         return dict.fromkeys(kinds, 0.0) | problem.law_deviations(row, found.values)
 
     try:
-        return sizes_known_before(effects_at, found.predicted, kinds)
+        with gathered(SOLVER):  # sentences about its points are known from their rows
+            return sizes_known_before(effects_at, found.predicted, kinds)
     except LambdaError:  # no solution there with fitted values
         return dict.fromkeys(kinds, 0.0)
 

@@ -4,25 +4,43 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.errors import LambdaError, SolverError, UsageError
 from lambda_core.fitting.least_squares import Data
 from lambda_core.fitting.measurements import Measurements
 from lambda_core.fitting.operating_points import at_line, condition_change
 from lambda_core.fitting.parameters import Parameter
-from lambda_core.fitting.rows import Asked, Rows
+from lambda_core.fitting.rows import Asked, Rows, Solved
 from lambda_core.fitting.subjects import Subject
 
 _STEP = 0.05  # of a parameter's spread before the fit, for slopes: above the scatter of the equilibrium's iteration
 _MOST_CONDITIONS = 3  # that candidates of the next point combine
 _LESS, _MORE = 0.5, 1.5  # of the smallest and largest value measured, where a candidate may lie
 _WARMER = 10.0  # beyond the temperatures measured [K]
+
+
+class RowsWithoutSolution(SolverError):
+    """Operating points without a solution.
+
+    Parameters
+    ----------
+    measurements : Measurements
+        What was measured.
+    reasons : mapping of int to SolverError
+        Row of each, and why.
+    """
+
+    def __init__(self, measurements: Measurements, reasons: Mapping[int, SolverError]) -> None:
+        self.reasons = {measurements.lines[row]: " ".join(str(error).split()) for row, error in reasons.items()}
+        self.rows = set(reasons)
+        line, why = next(iter(self.reasons.items()))
+        super().__init__(f"{measurements.name} line {line}: {why}")
 
 
 @dataclass(frozen=True)
@@ -56,7 +74,7 @@ class CaseProblem:
     def __init__(
         self, subject: Subject, measurements: Measurements, varied: Sequence[Graded], rows: Rows | None = None
     ) -> None:
-        self._subject, self._measurements, self.varied = subject, measurements, tuple(varied)
+        self._subject, self.measurements, self.varied = subject, measurements, tuple(varied)
         self._rows = rows or Rows(subject)
         _refuse_twice(self.varied, measurements)
         _refuse_zeros(measurements, subject)
@@ -75,12 +93,12 @@ class CaseProblem:
             {name: float(values[row]) for name, values in measurements.conditions.items()}
             for row in range(len(measurements))
         ]
-        self._known: dict[tuple[str | float, ...], FloatArray] = {}
+        self._known: dict[tuple[str | float, ...], Solved] = {}
 
     @property
     def rows(self) -> int:
         """Operating points that were measured."""
-        return len(self._measurements)
+        return len(self.measurements)
 
     @property
     def solved(self) -> int:
@@ -90,12 +108,12 @@ class CaseProblem:
     @property
     def quantities(self) -> dict[str, str]:
         """Physical quantity of each operating condition."""
-        return {name: condition.quantity for name, condition in self._measurements.set_by.items()}
+        return {name: condition.quantity for name, condition in self.measurements.set_by.items()}
 
     @property
     def data(self) -> Data:
         """Measured values with their errors, stacked row by row."""
-        m = self._measurements
+        m = self.measurements
         values = np.array([m.measured[e.quantity][e.row] for e in self.entries])
         known = [e.quantity in m.errors or e.quantity in m.shares for e in self.entries]
         if any(known) and not all(known):
@@ -138,7 +156,7 @@ class CaseProblem:
         The array has shape (n, k).
         """
         base, columns = self._stacked(values, self._conditions, one=True), []
-        for name, errors in self._measurements.condition_errors.items():
+        for name, errors in self.measurements.condition_errors.items():
             moved = [
                 {**conditions, name: conditions[name] + float(errors[row])}
                 for row, conditions in enumerate(self._conditions)
@@ -182,19 +200,37 @@ class CaseProblem:
         """Return the same problem for other measurements."""
         return CaseProblem(self._subject, measurements, self.varied, self._rows)
 
+    def without(self, rows: Container[int]) -> CaseProblem:
+        """Return the problem without some points.
+
+        What is solved stays known.
+        """
+        found = self.elsewhere(self.measurements.without(rows))
+        found._known = self._known
+        return found
+
+    def doubts(self, values: FloatArray) -> dict[int, tuple[str, ...]]:
+        """Return sentences of the solver about points, by line."""
+        found, numbers = {}, values.tolist()
+        for row, names in enumerate(self._asked):
+            solved = self._known.get(("all", *self._changes(self._conditions[row]), *numbers, *names))
+            if solved is not None and solved.doubts:
+                found[self.measurements.lines[row]] = solved.doubts
+        return found
+
     def candidates(self) -> list[dict[str, float]]:
         """Return operating points for the next measurement.
 
         They are corners of and beyond what was measured.
         """
         levels = {}
-        for name, column in list(self._measurements.conditions.items())[:_MOST_CONDITIONS]:
+        for name, column in list(self.measurements.conditions.items())[:_MOST_CONDITIONS]:
             low, high = float(column.min()), float(column.max())
-            if self._measurements.set_by[name].quantity == "temperature":
+            if self.measurements.set_by[name].quantity == "temperature":
                 levels[name] = (low - _WARMER, high + _WARMER)
             elif low > 0.0:
                 levels[name] = (_LESS * low, _MORE * high)
-        middle = {name: float(np.median(column)) for name, column in self._measurements.conditions.items()}
+        middle = {name: float(np.median(column)) for name, column in self.measurements.conditions.items()}
         return [{**middle, **dict(zip(levels, corner, strict=True))} for corner in itertools.product(*levels.values())]
 
     def candidate_slopes(self, values: FloatArray, points: Sequence[dict[str, float]]) -> FloatArray:
@@ -219,11 +255,18 @@ class CaseProblem:
 
     def _stacked(self, values: FloatArray, conditions: Sequence[dict[str, float]], *, one: bool = False) -> FloatArray:
         asked = [Asked(self._changes(at), names) for at, names in zip(conditions, self._asked, strict=True)]
-        answers = []
+        answers: list[dict[str, float]] = []
+        lost: dict[int, SolverError] = {}
         for row, found in enumerate(self._solved(values, asked, one=one)):
-            if isinstance(found, LambdaError):
-                raise at_line(found, self._measurements.name, self._measurements.lines[row]) from None
-            answers.append(dict(zip(self._asked[row], found.tolist(), strict=True)))
+            if isinstance(found, SolverError):
+                lost[row] = found
+            elif isinstance(found, LambdaError):
+                raise at_line(found, self.measurements.name, self.measurements.lines[row]) from None
+            answers.append(
+                {} if isinstance(found, LambdaError) else dict(zip(self._asked[row], found.tolist(), strict=True))
+            )
+        if lost:
+            raise RowsWithoutSolution(self.measurements, lost)
         return np.array([answers[entry.row][entry.quantity] for entry in self.entries])
 
     def _changes(self, conditions: dict[str, float]) -> tuple[str, ...]:
@@ -231,7 +274,7 @@ class CaseProblem:
 
         They change the case.
         """
-        return tuple(condition_change(self._measurements.set_by[name], value) for name, value in conditions.items())
+        return tuple(condition_change(self.measurements.set_by[name], value) for name, value in conditions.items())
 
     def _value(self, values: FloatArray, conditions: dict[str, float], quantity: str) -> float:
         """Return a quantity at one operating point and one position."""
@@ -248,14 +291,14 @@ class CaseProblem:
         numbers = values.tolist()
         kinds = ("all", "one") if one else ("all",)
 
-        def known(row: Asked) -> FloatArray | None:
+        def known(row: Asked) -> Solved | None:
             keys = ((kind, *row.changes, *numbers, *row.names) for kind in kinds)
             return next((self._known[key] for key in keys if key in self._known), None)
 
         missing = [row for row in dict.fromkeys(asked) if known(row) is None]
         parameters = list(zip(self.varied, numbers, strict=True))
         wrong: dict[Asked, LambdaError] = {}
-        # the answers end with the first error
+        # the answers end with the first mistake of the case
         for row, found in zip(missing, self._rows.solve(parameters, missing, one=one), strict=False):
             if isinstance(found, LambdaError):
                 wrong[row] = found
@@ -264,10 +307,12 @@ class CaseProblem:
         for row in asked:
             if row in wrong:
                 yield wrong[row]
-                return
+                if not isinstance(wrong[row], SolverError):
+                    return
+                continue
             answer = known(row)
-            assert answer is not None  # rows before the first error are solved
-            yield answer[: 1 if one else None].mean(axis=0)
+            assert answer is not None  # rows before the first mistake are solved
+            yield answer.values[: 1 if one else None].mean(axis=0)
 
 
 def _refuse_twice(varied: Sequence[Graded], measurements: Measurements) -> None:

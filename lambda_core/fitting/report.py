@@ -136,6 +136,7 @@ class FitReport(Record):
     tests: list[PatternTest] = Field(description="clearest pattern first")
     condition_quantities: dict[str, str] = Field(description="physical quantity of each operating condition")
     points: list[FittedPoint] = Field(description="measured values, in the order of the file")
+    unsolved_lines: list[int] = Field(default=[], description="lines without a solution, which are left out")
     predictions: list[PredictedPoint] = Field(description="points of a second file that the fit has not seen")
     discrepancy_pct: dict[str, float] = Field(
         description="standard deviation of what the laws may be wrong by, by quantity: the ranges that are not fitted"

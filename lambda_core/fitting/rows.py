@@ -13,7 +13,8 @@ from pydantic import BaseModel, ConfigDict
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.errors import LambdaError, SolverError
+from lambda_core.domain.log_sentences import SOLVER, gathered
 
 if TYPE_CHECKING:
     from lambda_core.analysis.band.graded import Graded
@@ -39,6 +40,16 @@ class FitProgress(BaseModel):
     percent: float | None  # of the points that a fit takes as a rule; None where it takes more
     wall_s: float
     left_s: float | None  # by that rule; None where it does not hold
+
+
+class Solved(NamedTuple):
+    """Quantities at an operating point.
+
+    `values` has the shape (positions of the balls, names); `doubts` are sentences of the solver.
+    """
+
+    values: FloatArray
+    doubts: tuple[str, ...] = ()
 
 
 class Asked(NamedTuple):
@@ -81,10 +92,10 @@ class Rows:
 
     def solve(
         self, parameters: Sequence[tuple[Graded, float]], asked: Sequence[Asked], *, one: bool
-    ) -> list[FloatArray | LambdaError]:
+    ) -> list[Solved | LambdaError]:
         """Return predictions or errors, row by row.
 
-        In this process it ends with the first error.
+        In this process it ends with the first mistake of the case; rows without a solution are no mistakes.
         """
         if self._workers > 1 and len(asked) > FEW:
             try:
@@ -95,12 +106,11 @@ class Rows:
             except BaseException:
                 self.close()
                 raise
-        found: list[FloatArray | LambdaError] = []
+        found: list[Solved | LambdaError] = []
         for row in asked:
-            try:
-                found.append(self._subject.values(row.changes, parameters, row.names, one=one))
-            except LambdaError as error:
-                return [*found, error]
+            found.append(_row(self._subject, parameters, row, one=one))
+            if isinstance(found[-1], LambdaError) and not isinstance(found[-1], SolverError):
+                return found
             self.heard(1)
         return found
 
@@ -112,7 +122,7 @@ class Rows:
 
     def _spread(
         self, parameters: Sequence[tuple[Graded, float]], asked: Sequence[Asked], *, one: bool
-    ) -> list[FloatArray | LambdaError]:
+    ) -> list[Solved | LambdaError]:
         from lambda_core.discovery.api import guests
         from lambda_core.studies.pool import Processes
 
@@ -124,8 +134,8 @@ class Rows:
         for number, row in enumerate(asked):
             shares[self._owners.setdefault(row.changes, len(self._owners) % self._workers)].append(number)
         plain = tuple((replace(graded, models=()), number) for graded, number in parameters)
-        found: list[FloatArray | LambdaError | None] = [None] * len(asked)
-        running: dict[Future[list[FloatArray | LambdaError]], list[int]] = {}
+        found: list[Solved | LambdaError | None] = [None] * len(asked)
+        running: dict[Future[list[Solved | LambdaError]], list[int]] = {}
         text, bearing, plugins = self._subject.case_toml, self._subject.bearing, guests()
         for executor, share in zip(self._executors, shares, strict=True):
             for begin in range(0, len(share), _CHUNK):
@@ -183,19 +193,25 @@ class Watch:
 
 
 @one_blas_thread()
-def _solved(chunk: _Chunk) -> list[FloatArray | LambdaError]:
+def _solved(chunk: _Chunk) -> list[Solved | LambdaError]:
     """Solve rows in a worker process.
 
     An error stands in the place of its row.
     """
     subject = _subject(chunk.case_toml, chunk.bearing, chunk.guests)
-    found: list[FloatArray | LambdaError] = []
-    for row in chunk.asked:
+    return [_row(subject, chunk.parameters, row, one=chunk.one) for row in chunk.asked]
+
+
+def _row(
+    subject: Subject, parameters: Sequence[tuple[Graded, float]], row: Asked, *, one: bool
+) -> Solved | LambdaError:
+    """Solve one row; an error stands in its place."""
+    with gathered(SOLVER) as doubts:
         try:
-            found.append(subject.values(row.changes, chunk.parameters, row.names, one=chunk.one))
+            values = subject.values(row.changes, parameters, row.names, one=one)
         except LambdaError as error:
-            found.append(error)
-    return found
+            return error
+    return Solved(values, tuple(dict.fromkeys(doubts)))
 
 
 @lru_cache(maxsize=1)

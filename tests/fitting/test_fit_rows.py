@@ -10,7 +10,7 @@ import pytest
 from lambda_core.domain.errors import CaseError, EquilibriumError, LambdaError, Problem
 from lambda_core.fitting import operating_points, rows
 from lambda_core.fitting.operating_points import OperatingPoints
-from lambda_core.fitting.rows import Asked, FitProgress, Rows, Watch
+from lambda_core.fitting.rows import Asked, FitProgress, Rows, Solved, Watch
 from lambda_core.fitting.subjects import subject_of
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.studies.job import resolve_point
@@ -39,7 +39,9 @@ def test_processes_answer_what_one_answers(monkeypatch: pytest.MonkeyPatch) -> N
     alone = Rows(subject).solve(parameters, asked, one=False)
     assert sum(heard) == len(asked)
     for one, other in zip(found[:2], alone[:2], strict=True):
-        np.testing.assert_array_equal(one, other)
+        assert isinstance(one, Solved)
+        assert isinstance(other, Solved)
+        np.testing.assert_array_equal(one.values, other.values)
     assert isinstance(found[2], LambdaError)
     assert str(found[2]) == str(alone[2])
     assert len(alone) == 3  # one process ends with the first error

@@ -87,6 +87,15 @@ def test_every_mistake_has_line_column_and_remedy(text: str, said: str) -> None:
     assert str(caught.value).startswith("rig.csv: ")
 
 
+def test_a_row_of_empty_cells_is_an_empty_line() -> None:
+    """Ignore rows of commas, as spreadsheets write them.
+
+    The last one gave three errors.
+    """
+    found = parse_measurements(",,\nspeed [rpm],power loss [W],label\n1,2,a\n , ,\n3,4,b\n,,\n", "rig.csv")
+    assert found.lines == (3, 5)
+
+
 def test_all_mistakes_of_a_file_are_reported_at_once() -> None:
     with pytest.raises(CaseError) as caught:
         parse_measurements("speed [rpm],power loss [W]\nx,1\n2,y\n", "rig.csv")

@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import EquilibriumError
+from lambda_core.domain.log_sentences import SOLVER
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.viscosity_continuation import StaticReport
 
-log = logging.getLogger("lambda_core")
+log = logging.getLogger(SOLVER)
 
 PATH_ITERATIONS = 20
 PATH_SHARE = 0.5  # of the remaining difference between paths and velocities, where differences before foretell it
