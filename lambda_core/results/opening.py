@@ -89,6 +89,10 @@ def _naming_damage(path: Path) -> Iterator[None]:
         yield
     except LambdaError:
         raise
+    except SystemError as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):  # Ctrl+C inside h5py, whose locks turn it into this
+            raise KeyboardInterrupt from None
+        raise ResultError(f"{path} is damaged: {_damage(error)}") from None
     except Exception as error:  # a garbled file misleads h5py into errors of every kind
         raise ResultError(f"{path} is damaged: {_damage(error)}") from None
 

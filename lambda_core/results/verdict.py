@@ -57,7 +57,9 @@ class Margin(Record):
         if self.unit == "h":
             return f"{self.name} {hours(self.value)} of {limit} required"
         if self.name == "load":
-            return f"minimum load {'met' if self.met else 'NOT met:'} {_times(self.share)} times"
+            if self.met:
+                return f"minimum load met {_times(self.share)} times"
+            return f"load {100.0 * self.share:.0f} % of the minimum of {limit}"
         if self.side == "at most" and self.unit != "degC":
             return f"{self.name} {100.0 * self.share:.0f} % of {limit}"
         return f"{self.name} {_written(self.value, self.unit, units)} ({self.side} {limit})"

@@ -57,6 +57,13 @@ def test_the_flow_of_oil_or_its_share_is_needed() -> None:
     assert with_lubrication("oil jet", "parameters.fluid_drag.oil_share=0.02")
 
 
+def test_a_missing_flow_of_oil_is_asked_for_with_the_lubrication_that_needs_it_and_an_example() -> None:
+    with pytest.raises(LambdaError, match='is required with lubrication oil jet, such as "1 l/min"'):
+        with_lubrication("oil jet")
+    with pytest.raises(LambdaError, match="is required with fluid_drag cavity-mixture, such as"):
+        api.check(FAST, ["models.fluid_drag=cavity-mixture"])
+
+
 def test_what_contradicts_the_lubrication_is_an_error() -> None:
     with pytest.raises(LambdaError, match='"oil jet" has no bath: leave the line out'):
         with_lubrication("oil jet", "thermal.oil_flow=6 l/min", "lubricant.oil_level=0 mm")

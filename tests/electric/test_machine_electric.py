@@ -110,6 +110,11 @@ def test_mistakes_are_named(change: str, where: str, words: str) -> None:
     assert words in problem.message
 
 
+def test_currents_of_a_case_at_rest_are_refused_for_its_speed_not_for_a_duration() -> None:
+    with pytest.raises(UsageError, match="at rest no ball passes a point: give the bearing a speed"):
+        api.electric("6208-axial-1300", ["operation.speed=0 rpm"])
+
+
 def test_a_case_without_the_section_gets_defaults(tmp_path: Path) -> None:
     text = MOTOR.read_text()
     path = tmp_path / "plain.toml"

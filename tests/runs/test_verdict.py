@@ -13,6 +13,7 @@ from lambda_core import api
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
 from lambda_core.model.machine_templates import geared_shaft
 from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.results.verdict import Margin
 
 CASE = {
     "name": "motor",
@@ -72,6 +73,15 @@ def test_each_requirement_that_is_missed_is_named(requirement: dict[str, str | f
     assert not found.verdict.met
     assert found.verdict.sentence.startswith("NOT MET")
     assert words in found.verdict.sentence
+
+
+def test_a_load_below_the_minimum_is_its_share_of_it() -> None:
+    """Say by how much."""
+    idle = Margin(
+        name="load", value=32.5, limit=325.0, unit="N", side="at least", is_required=False,
+        met=False, share=0.1, basis="SKF: 0.01 C",
+    )  # fmt: skip
+    assert idle.text() == "load 10 % of the minimum of 325 N"
 
 
 def test_a_life_without_given_cleanliness_counts_without_a_iso() -> None:

@@ -17,7 +17,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.results import file_format as layout
 from lambda_core.results import hdf5
-from lambda_core.results.opening import ResultError
+from lambda_core.results.opening import ResultError, opened
 
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
 
@@ -129,6 +129,15 @@ def test_a_damaged_root_is_named(
     monkeypatch.setattr(hdf5.h5py.h5f, "open", refuse)
     assert main(["show", str(file)]) == 2
     assert "bad object header chunk size" in capsys.readouterr().err
+
+
+def test_ctrl_c_inside_the_library_of_files_is_no_damage(file: Path) -> None:
+    """Raise an interruption.
+
+    A lock of h5py turned it into another error.
+    """
+    with pytest.raises(KeyboardInterrupt), opened(file):
+        raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
 
 def test_a_part_that_is_missing_is_named_in_words_of_our_own(file: Path) -> None:

@@ -6,10 +6,12 @@ import json
 import math
 import subprocess
 import sys
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from lambda_plugins.views.catalogues import catalogues
 
 from lambda_core import api
 from lambda_core.discovery.manager import registry
@@ -144,6 +146,16 @@ def test_simulation_and_catalogues_stand_on_one_axis(radial_run: Result, combine
     neighbour = api.view([radial_run, combined_run], "comparison").panels[1]
     assert [s.name for s in neighbour.series] == ["simulation", "SKF", "Schaeffler"]
     assert series(neighbour, "SKF").y[0] == summary.rating.skf_torque_Nmm
+
+
+@pytest.mark.parametrize(
+    ("torque", "words"), [(None, "no mean friction torque"), (3.0, "neither SKF's nor Schaeffler's")]
+)
+def test_a_missing_comparison_has_one_reason(torque: float | None, words: str) -> None:
+    """Do not suspect a bearing that turns to stand still."""
+    run: Any = SimpleNamespace(summary=lambda: SimpleNamespace(rating=None, friction_torque_Nmm=torque))
+    with pytest.raises(NotApplicable, match=words):
+        catalogues(run, {})
 
 
 def test_friction_adds_up_and_its_mean_is_the_summarys(radial_run: Result) -> None:

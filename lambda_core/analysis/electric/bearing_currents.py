@@ -60,7 +60,7 @@ def electric(
     if is_result(source):
         found = circuit_of_run(Result(str(source)), overrides, announce, window=window)
     else:
-        found = electric_of_model(ready(source, overrides, announce), announce, window=window)
+        found = electric_of_model(ready(source, overrides, announce, is_static=True), announce, window=window)
     return found if len(found.bearings) > 1 else found.first
 
 
@@ -132,4 +132,4 @@ def _alone(
     from lambda_core.analysis.rotor.bearing_alone import bearing_alone
     from lambda_core.analysis.thermal.temperatures import ready
 
-    return bearing_alone(ready(source, overrides, announce), bearing, announce)
+    return bearing_alone(ready(source, overrides, announce, is_static=True), bearing, announce)

@@ -155,10 +155,12 @@ class LawResolver:
             self.ledger.problem(where, f"{chosen.label}: its parameters cannot be read: {describe(error)}")
             return None
         if getattr(parameters, SHARE_OF_OIL, 0.0) is None and not self.case.thermal.oil_flow > 0.0:
+            kind = self.case.lubricant.lubrication
             self.ledger.problem(
                 "thermal.oil_flow",
-                f"{role} {chosen.name} needs the flow of oil through the bearing, or its share of the cavity: "
-                f"parameters.{role}.{SHARE_OF_OIL}",
+                f"is required with {f'lubrication {kind}' if kind in MIXTURES else f'{role} {chosen.name}'}, such as "
+                '"1 l/min": from this flow through the bearing follows the share of oil in which the balls move; or '
+                f"give this share, 0 to 1: parameters.{role}.{SHARE_OF_OIL}",
             )
             return None
         origins = {}

@@ -25,8 +25,10 @@ def catalogues(run: RunData, options: Options) -> ViewData:
     """
     summary = run.summary()
     rating = summary.rating
-    if rating is None or summary.friction_torque_Nmm is None:
-        raise NotApplicable("the catalogue methods do not answer this case, or nothing turns")
+    if summary.friction_torque_Nmm is None:
+        raise NotApplicable("the run has no mean friction torque to compare")
+    if rating is None:
+        raise NotApplicable("neither SKF's nor Schaeffler's model answers for this case")
     others = [
         (name, value)
         for name, value in (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
