@@ -260,8 +260,7 @@ def _template_text(name: str, template: str | None, bearing: str | None, radial:
 
     from lambda_core.catalogue.designation import designated
     from lambda_core.catalogue.roller_designation import roller_designation
-    from lambda_core.model.fresh_case import fresh_case
-    from lambda_core.model.fresh_roller_case import fresh_roller_case
+    from lambda_core.model.fresh_case import fresh_balls, fresh_case, fresh_rollers
     from lambda_core.model.machine_templates import GENERAL, MACHINES, geared_shaft
 
     if template == GEARED_SHAFT:
@@ -276,8 +275,8 @@ def _template_text(name: str, template: str | None, bearing: str | None, radial:
         if rollers is not None:
             if template is not None:
                 raise UsageError(f"templates of machines are for balls: leave out --template with {bearing}")
-            return fresh_roller_case(name, rollers, radial)
-        return fresh_case(name, *designated(opened, bearing or kind.bearing), kind, radial)
+            return fresh_case(name, fresh_rollers(rollers), radial)
+        return fresh_case(name, fresh_balls(*designated(opened, bearing or kind.bearing), kind), radial)
 
 
 def templates() -> dict[str, str]:

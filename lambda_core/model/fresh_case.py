@@ -1,16 +1,19 @@
-"""Write a commented case for any ball bearing."""
+"""Write a commented case for any bearing."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lambda_core.elements.ball.kinds import kinds
-from lambda_core.model.machine_templates import GENERAL, MachineTemplate
+from lambda_core.elements.roller.roller_bearing import kind_words
+from lambda_core.model.machine_templates import ROLLERS, MachineTemplate
 
 if TYPE_CHECKING:
     from lambda_core.catalogue.designation import Designation
     from lambda_core.catalogue.protocol import BearingRow
+    from lambda_core.catalogue.roller_designation import RollerDesignation
 
 _TEXT = """\
 # {kind} {designation} of {maker}{words}: change what differs on your machine.
@@ -21,7 +24,6 @@ description = "{designation} of {maker}{words}"
 designation = "{designation}"
 maker = "{maker}"
 {clearance}
-
 [lubricant]
 {oil}
 {temperature}
@@ -32,24 +34,86 @@ maker = "{maker}"
 
 [operation]
 {speed}
-
 {tail}"""
 _NO_RATING = 10e3  # [N], where the catalogue has no rating to take a share of
 _MOST_SPEED = 0.5  # of the limiting speed that a new case starts with
 _PICK = '\nclearance_pick = "middle"'
-_MEASURED = 'or a measured value such as "14 um"'
+_MEASURED = 'or a measured value such as "{}"'
 # Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
 HALF_LOADED = 1.216
+# The same for line contact (Harris and Kotzalas, vol. 1, ch. 7: 1.215), and some more.
+_HALF_LOADED_LINES = 1.3
 
 
-def fresh_case(
-    name: str,
-    bearing: BearingRow,
-    read: Designation,
-    machine: MachineTemplate = GENERAL,
-    given: float | None = None,
-) -> str:
+@dataclass(frozen=True)
+class FreshBearing:
+    """What a new case says of its bearing.
+
+    Attributes
+    ----------
+    title : str
+        Kind, for the first line.
+    designation, maker : str
+    rating : float or None
+        Dynamic load rating C [N].
+    limiting_speed : float
+        [rad/s]; inf where the catalogue has none.
+    clearance : str
+        Lines of clearance or contact angle.
+    thrust, why : float, str
+        Axial over radial load, and the comment on it.
+    machine : MachineTemplate
+    """
+
+    title: str
+    designation: str
+    maker: str
+    rating: float | None
+    limiting_speed: float
+    clearance: str
+    thrust: float
+    why: str
+    machine: MachineTemplate
+
+
+def fresh_balls(row: BearingRow, read: Designation, machine: MachineTemplate) -> FreshBearing:
+    """Describe a ball bearing in a machine."""
+    thrust, why = _thrust(machine, row)
+    return FreshBearing(
+        title=kinds()[row.kind].title,
+        designation=read.text,
+        maker=row.maker,
+        rating=row.dynamic_rating.value if row.dynamic_rating else None,
+        limiting_speed=row.limiting_speed.value if row.limiting_speed else math.inf,
+        clearance=_clearance(machine, row, read),
+        thrust=thrust,
+        why=why,
+        machine=machine,
+    )
+
+
+def fresh_rollers(found: RollerDesignation) -> FreshBearing:
+    """Describe a roller bearing; a tapered one has no clearance."""
+    row, words = found.row, kind_words(found.row.kind)
+    thrust, why = 0.0, "along the shaft; NU and N take none, NJ and NUP through their ribs"
+    if row.contact_angle is not None:
+        thrust = _HALF_LOADED_LINES * math.tan(row.contact_angle.value)
+        why = "along the shaft; with less the bearing alone opens"
+    return FreshBearing(
+        title=f"{words[0].upper()}{words[1:]} roller bearing",
+        designation=" ".join(word for word in found.text.split() if word.upper() != row.maker.upper()),
+        maker=row.maker,
+        rating=row.dynamic_rating.value,
+        limiting_speed=math.inf,
+        clearance="" if row.contact_angle is not None or found.clearance else _class(ROLLERS.clearance, "40 um"),
+        thrust=thrust,
+        why=why,
+        machine=ROLLERS,
+    )
+
+
+def fresh_case(name: str, bearing: FreshBearing, given: float | None = None) -> str:
     """Write the case of a bearing in a machine.
 
     Loads follow from its rating, everything else is default.
@@ -57,26 +121,26 @@ def fresh_case(
     Suffixes of the designation stay in it and decide what they stand for. A `given` radial load [N] takes the place of
     that by the rating, and the axial load follows from it.
     """
-    rating = bearing.dynamic_rating
-    radial = machine.load * (rating.value if rating else _NO_RATING) if given is None else abs(given)
+    machine, rating = bearing.machine, bearing.rating
+    radial = machine.load * (rating or _NO_RATING) if given is None else abs(given)
     part = "a tenth of C" if machine.load == 0.1 else f"{machine.load:.2g} of C"
-    share = f"{part} = {rating.value / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
+    share = f"{part} = {rating / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
     oil, load, speed = machine.about
     about = f"{share}; {load}" if given is None else load
-    share_of, why = _thrust(machine, bearing)
+    rpm = min(machine.speed, _MOST_SPEED * bearing.limiting_speed * 30.0 / math.pi)
     return _TEXT.format(
-        kind=kinds()[bearing.kind].title,
+        kind=bearing.title,
         name=name,
-        designation=read.text,
+        designation=bearing.designation,
         words=f", {machine.words}" if machine.words else "",
         maker=bearing.maker,
-        clearance=_clearance(machine, bearing, read),
+        clearance=f"{bearing.clearance}\n" if bearing.clearance else "",
         oil=_told(f'name = "{machine.oil}"', oil),
         temperature=_told(f'temperature = "{machine.temperature} degC"', ""),
         radial=_told(f'radial = "{_newton(radial)}"', about),
-        axial=_told(f'axial = "{_newton(share_of * radial)}"', why),
-        speed=_told(f'speed = "{_speed(machine, bearing):.4g} rpm"', speed),
-        tail=machine.tail,
+        axial=_told(f'axial = "{_newton(bearing.thrust * radial)}"', bearing.why),
+        speed=_told(f'speed = "{rpm:.4g} rpm"', speed),
+        tail=f"\n{machine.tail}" if machine.tail else "",
     )
 
 
@@ -94,9 +158,13 @@ def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation)
         angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
         return _told(f'# contact_angle = "{angle}"', "of the catalogue: the clearance follows from it")
     if classes:
-        why = f"stands in the designation; {_MEASURED.removeprefix('or ')} would win"
+        why = f"stands in the designation; {_MEASURED.format('14 um').removeprefix('or ')} would win"
         return _told(f'# clearance = "{classes[0]}"', why) + _PICK
-    return _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}") + _PICK
+    return _class(machine.clearance, "14 um")
+
+
+def _class(clearance: str, measured: str) -> str:
+    return _told(f'clearance = "{clearance}"', f"class of ISO 5753-1, {_MEASURED.format(measured)}") + _PICK
 
 
 def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
@@ -120,12 +188,3 @@ def _told(text: str, why: str) -> str:
 
 def _newton(load: float) -> str:
     return f"{load / 1e3:.3g} kN" if load >= 1e3 else f"{load:.3g} N"
-
-
-def _speed(machine: MachineTemplate, bearing: BearingRow) -> float:
-    """Return the initial speed [rpm].
-
-    Well below the limit of the bearing where the catalogue has one.
-    """
-    limit = bearing.limiting_speed
-    return min(machine.speed, _MOST_SPEED * limit.value * 30.0 / math.pi) if limit else machine.speed

@@ -7,7 +7,7 @@ tables of SKF, Rolling bearings, PUB BU/P1 17000 EN (2018): seat tolerances for 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import resources
 
 _TILT = """\
@@ -81,6 +81,7 @@ GENERAL = MachineTemplate(
         "inner ring; the outer ring stands still",
     ),
 )  # fmt: skip
+ROLLERS = replace(GENERAL, oil="FVA3", tail="")  # of a bearing with rollers
 MACHINES: dict[str, MachineTemplate] = {
     "electric-motor": MachineTemplate(
         "drive end of an electric motor, grease", "SKF 6308", "arcanol-multi2", 70, 0.05, 0.1, 3000.0, "C3",
