@@ -18,8 +18,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from lambda_core import api
+from lambda_core.solver.drivers.coupling import coupled_engine
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.external_inputs import given_names, start
 
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
 STEP, STEPS = 1e-4, 300  # [s], communication steps
@@ -88,8 +88,9 @@ def _load() -> str:
 
 
 def _engine() -> BearingEngine:
-    model, equilibrium = start(api.check(CASE, CHANGES), "force", None)
-    return BearingEngine(model, None, equilibrium, given=given_names(model, "force"))
+    engine = coupled_engine(api.check(CASE, CHANGES), "force")
+    assert isinstance(engine, BearingEngine)
+    return engine
 
 
 def _with_stops() -> Callable[[], object]:

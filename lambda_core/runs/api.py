@@ -243,7 +243,7 @@ def iterate(
         With a sentence about the case, the solver or `interval`.
     """
     from lambda_core.runs.stepping import Stepping
-    from lambda_core.solver.drivers.external_inputs import check_coupling
+    from lambda_core.solver.drivers.coupling import check_coupling
 
     model = resolved(source, overrides)
     check_coupling(model, couple)  # temperatures are not worth finding for a case that cannot be coupled so

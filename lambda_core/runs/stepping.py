@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +19,8 @@ from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.runs.record_times import next_multiple
+from lambda_core.solver.drivers.coupling import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND, Coupling, coupled_engine
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.external_inputs import (
-    MOST_ITERATIONS,
-    MOST_ITERATIONS_PER_SECOND,
-    Coupling,
-    given_names,
-    start,
-)
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
@@ -78,95 +72,19 @@ class Step:
         return self.channels[name]
 
 
-class Coupled(Protocol):
-    """Motion of the model with external inputs."""
-
-    @property
-    def engine(self) -> BearingEngine | MachineEngine:
-        """Return its dynamics."""
-
-    @property
-    def given(self) -> tuple[str, ...]:
-        """Return the names of what is given."""
-
-    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
-        """Give a load or motion from now on."""
-
-    def step(self) -> Step:
-        """Return where it stands now."""
-
-    def pressure(self) -> float:
-        """Return the largest contact pressure now [Pa]."""
-
-    def state(self) -> dict[str, NDArray[np.float64]]:
-        """Return the state for a continuation.
-
-        The engine's own state is separate.
-        """
-
-    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
-        """Go back to what :meth:`state` returned."""
-
-
-class _OneBearing:
-    """A bearing that is pushed, or whose rings are moved."""
-
-    def __init__(self, model: BearingModel, couple: Coupling, announce: Announce | None) -> None:
-        self.model, equilibrium = start(model, couple, announce)
-        self.given = given_names(self.model, couple)
-        self.engine = BearingEngine(self.model, announce, equilibrium, given=self.given)
-
-    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
-        row = self.engine.given[self.given.index(name)]
-        row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.engine.time
-
-    def step(self) -> Step:
-        channels = self.engine.now()
-        return Step(self.engine.time, channels, dict(zip(BODIES, self.engine.reactions(), strict=True)), math.nan)
-
-    def pressure(self) -> float:
-        return float(self.engine.now()["max_pressure"].max())
-
-    def state(self) -> dict[str, NDArray[np.float64]]:
-        return {}
-
-    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
-        del state  # the engine has all
-
-
-class _Machine:
-    """Machine with external forces and drive.
-
-    Forces act at its markers, loads and gears; its coupling turns.
-    """
-
-    def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce | None) -> None:
-        from lambda_core.solver.drivers.external_inputs import check_coupling
-        from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_start
-
-        check_coupling(machine, couple)
-        begun = machine_start(machine, announce, is_given=True)
-        assert begun.given is not None
-        self._given, self.given = begun.given, begun.given.names
-        self.engine = MachineEngine(begun, announce)
-
-    def give(self, name: str, value: float, rate: float, acceleration: float) -> None:
-        self._given.give(name, value, rate, acceleration, self.engine.time)
-
-    def step(self) -> Step:
-        seen, names = self.engine.now(), [one.name for one in self.engine.bearings]
+def _seen(engine: BearingEngine | MachineEngine) -> tuple[Step, float]:
+    """Return the state now and its largest contact pressure [Pa]."""
+    if isinstance(engine, BearingEngine):
+        channels = engine.now()
+        reactions, bearings = dict(zip(BODIES, engine.reactions(), strict=True)), {}
+        pressures = [channels]
+    else:
+        seen, names = engine.now(), [one.name for one in engine.bearings]
         pairs = zip(seen.machine["reaction_force"], seen.machine["reaction_moment"], strict=True)
-        reactions = dict(zip(names, map(np.concatenate, pairs), strict=True))
-        return Step(self.engine.time, seen.machine, reactions, math.nan, dict(zip(names, seen.bearings, strict=True)))
-
-    def pressure(self) -> float:
-        return max(float(channels["max_pressure"].max()) for channels in self.engine.now().bearings)
-
-    def state(self) -> dict[str, NDArray[np.float64]]:
-        return self._given.state()
-
-    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
-        self._given.restore(state)
+        channels, reactions = seen.machine, dict(zip(names, map(np.concatenate, pairs), strict=True))
+        bearings, pressures = dict(zip(names, seen.bearings, strict=True)), seen.bearings
+    pressure = max(float(one["max_pressure"].max()) for one in pressures)
+    return Step(engine.time, channels, reactions, math.nan, bearings), pressure
 
 
 class Stepping(Iterator[Step]):
@@ -216,13 +134,9 @@ class Stepping(Iterator[Step]):
             raise UsageError(f"the interval between steps is {interval:g} s: it must be positive and finite")
         if interval is not None and not exact:
             model = _in_steps(model, interval)
-        self._coupled: Coupled
-        if isinstance(model, BearingModel):
-            self._coupled = one = _OneBearing(model, couple, announce)
-            self.model: BearingModel | MachineModel = one.model
-        else:
-            self._coupled, self.model = _Machine(model, couple, announce), model
-        self.given, self._engine = self._coupled.given, self._coupled.engine
+        self._engine = engine = coupled_engine(model, couple, announce)
+        self.model: BearingModel | MachineModel = engine.model
+        self.given = engine.inputs.names
         self.interval = interval or self._engine.sample_interval
         self._exact, self._end = exact, model.solver.duration or model.solver.max_duration
         self._before = self._engine.spent()
@@ -254,7 +168,7 @@ class Stepping(Iterator[Step]):
             raise UsageError(unknown_name("signal", name, self.given))
         if not all(map(math.isfinite, (value, rate, acceleration))):
             raise UsageError(f"{name} is given as {value:g}, {rate:g}, {acceleration:g}: all must be finite numbers")
-        self._coupled.give(name, value, rate, acceleration)
+        self._engine.inputs.give(name, value, rate, acceleration, self._engine.time)
 
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
         """Put a load on the inner ring.
@@ -321,8 +235,7 @@ class Stepping(Iterator[Step]):
 
         A caller can look ahead, and :meth:`restore` it.
         """
-        own = {f"coupled.{name}": part for name, part in self._coupled.state().items()}
-        return {**self._engine.state(samples=False), **own, "before": np.array(self._before)}
+        return {**self._engine.state(samples=False), "before": np.array(self._before)}
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
         """Go back to a state of :meth:`state`.
@@ -330,16 +243,14 @@ class Stepping(Iterator[Step]):
         The steps after it are the same again, bit for bit.
         """
         self._before = (float(state["before"][0]), float(state["before"][1]))
-        coupled = {name: part for name, part in state.items() if name.startswith("coupled.")}
-        self._coupled.restore({name.removeprefix("coupled."): part for name, part in coupled.items()})
-        self._engine.restore({name: part for name, part in state.items() if name != "before" and name not in coupled})
+        self._engine.restore({name: part for name, part in state.items() if name != "before"})
 
     def _go(self, until: float, *, exactly: bool) -> Step:
         engine = self._engine
         before = engine.state(samples=False)
         try:
             self._advance(until, exactly)
-            step = self._coupled.step()
+            step, _ = _seen(engine)
         except SolverError:
             engine.forget_samples()
             engine.restore(before)
@@ -366,7 +277,7 @@ class Stepping(Iterator[Step]):
         if not advance.ok:
             raise SolverError(advance.message)
         if engine.time < until:
-            pressure = 1e-9 * self._coupled.pressure()
+            pressure = 1e-9 * _seen(engine)[1]
             raise SolverError(
                 f"at t = {engine.time:.9g} s, on the way to {until:.9g} s, {engine.iterations - before} iterations are "
                 f"spent (contact pressure {pressure:.3g} GPa): forces or motions that no bearing takes; are loads in "

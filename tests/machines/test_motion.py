@@ -123,7 +123,7 @@ def test_the_motion_begins_in_equilibrium(engine: MachineEngine) -> None:
     _, forces = evaluated(engine, engine._memory.y.copy())
     loads = engine.context.bundle.inputs["force"]["value"]
     weight = engine.context.bundle.bodies["mass"] * 9.80665
-    for body in member_numbers(engine.machine, engine.start.shaft).lumps:
+    for body in member_numbers(engine.model, engine.start.shaft).lumps:
         left = forces[body, :3] + loads[body] - [0.0, 0.0, weight[body]]
         assert np.abs(left).max() < 6.0  # of 700 N: rings 2 N, unbalance 50 g mm at 314 rad/s 4.9 N over all lumps
 
@@ -163,7 +163,7 @@ def check_slopes(engine: MachineEngine) -> None:
     bundle, y = engine.context.bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
     middle = next(
-        b for b in member_numbers(engine.machine, engine.start.shaft).lumps if not bundle.bodies["mass"][b] < 1.0
+        b for b in member_numbers(engine.model, engine.start.shaft).lumps if not bundle.bodies["mass"][b] < 1.0
     )
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     evaluated(engine, y)
@@ -191,7 +191,7 @@ def test_a_shaft_that_twists() -> None:
     engine = machine_engine(resolve_machine(changed))
     check_slopes(engine)
     start = engine.start.state.displacement.reshape(-1, 6)[:, 3]
-    expected = [start[engine.machine.body.node(float(place))] for place in engine.start.shaft.positions]
+    expected = [start[engine.model.body.node(float(place))] for place in engine.start.shaft.positions]
     assert min(expected, key=abs) != 0.0
     assert engine.advance(1e-3).ok
     samples, rows = engine.samples(), engine.integrals()
@@ -379,7 +379,7 @@ def test_a_machine_without_cages_counts_the_turns_of_its_balls() -> None:
     """
     engine = machine_engine(resolve_machine(tables(), ["depth.cage=false"]))
     assert engine.advance(5e-3).ok
-    for one, row in zip(engine.machine.bearings, engine.integrals(), strict=True):
+    for one, row in zip(engine.model.bearings, engine.integrals(), strict=True):
         g = one.model.geometry
         assert row["cage_angle"] / row["inner_angle"] == pytest.approx(
             0.5 * (1.0 - g.ball_diameter / g.pitch_diameter), rel=0.02

@@ -35,7 +35,7 @@ def test_laws_see_the_speed_of_the_shaft(engine: MachineEngine) -> None:
 
     In motion and about the equilibrium; parameters of damping that depend on it have the same bits.
     """
-    machine, bundle = engine.machine, engine.context.bundle
+    machine, bundle = engine.model, engine.context.bundle
     for one, found in zip(engine.bearings, engine.start.equilibria, strict=True):
         assert max_speed(one.context.model) == machine.speed > 0.0
         assert max_speed(_freed(found.context).model) == machine.speed

@@ -160,7 +160,9 @@ def test_what_no_bearing_takes_ends_and_changes_nothing(exact: bool) -> None:
         next(stepping)
     stepping.push()
     again = stepping.state()
-    assert [name for name in kept if name != "given" and kept[name].tobytes() != again[name].tobytes()] == []
+    assert [
+        name for name in kept if not name.startswith("given.") and kept[name].tobytes() != again[name].tobytes()
+    ] == []
     for bearing in (stepping, other):
         bearing.push((0.0, 0.0, -50e3))
     after, expected = next(stepping), next(other)

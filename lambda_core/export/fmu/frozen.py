@@ -23,18 +23,14 @@ from lambda_core.export.fmu.prescribed_rings import PrescribedRings, prescribed_
 from lambda_core.export.fmu.starting import Start, prepare_start
 from lambda_core.export.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
-from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.machine_model import MachineModel
 from lambda_core.solver import layout as T
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import CONTROL, Memory
-from lambda_core.solver.drivers.compiled_laws import derive_oils
+from lambda_core.solver.drivers.coupling import Coupling, alike, coupled_engine
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.external_inputs import Coupling, check_coupling, given_names, start
-from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart, changed_start, machine_start
+from lambda_core.solver.drivers.machine_motion import MachineEngine, MachineStart
 from lambda_core.solver.drivers.roller_tables import roller_pointers
-from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.blocks import blocks_t, factors_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t, memory_t
 from lambda_core.solver.sampling import observe_sig
@@ -42,9 +38,12 @@ from lambda_core.solver.sampling import observe_sig
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from lambda_core.solver.drivers.assembly import BearingSpan
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.compiled_laws import Announce
+    from lambda_core.solver.drivers.external_inputs import ExternalInputs
     from lambda_core.solver.drivers.observation import Scratch
+    from lambda_core.solver.drivers.readings import ReadBearing
 
 _CAPACITY = 4  # samples: nobody takes them, but the integrator keeps room for those of the step in hand
 _HOST_WORDS = 8  # behind them stand what a machine is given, then the values of the options that vary
@@ -58,24 +57,6 @@ _ENDLESS = 1e300
 
 
 @dataclass(frozen=True)
-class FrozenBearing:
-    """A bearing among those of an image.
-
-    Attributes
-    ----------
-    name : str
-        "" for a bearing that is alone.
-    model : BearingModel
-    span : BearingSpan
-        Where it stands in tables and samples.
-    """
-
-    name: str
-    model: BearingModel
-    span: BearingSpan
-
-
-@dataclass(frozen=True)
 class Frozen:
     """A model at its start.
 
@@ -85,11 +66,9 @@ class Frozen:
     image : Image
     entries : tuple of Entry
         The functions of the library: advance, observe.
-    bearings : tuple of FrozenBearing
-    given : tuple of str
+    bearings : tuple of ReadBearing
+    inputs : ExternalInputs
         What the host gives.
-    terms : records.TERM[:]
-        Their rows; of a machine those that follow what is given.
     wrenches : float64[:, 6]
         What bearings put on their bodies.
     host : float64[:]
@@ -112,9 +91,8 @@ class Frozen:
     duration: float | None
     image: Image
     entries: tuple[Entry, ...]
-    bearings: tuple[FrozenBearing, ...]
-    given: tuple[str, ...]
-    terms: Any
+    bearings: tuple[ReadBearing, ...]
+    inputs: ExternalInputs
     wrenches: Any
     memory: Memory
     scratch: Scratch
@@ -133,7 +111,7 @@ class Frozen:
 
         The bearing is alone and has the body.
         """
-        model = self.bearings[0].model
+        model = self.bearings[0].context.model
         if body == "cage":
             return bool(model.depth.cage)
         return any(dof.mode != "locked" for dof in getattr(model, body).dofs.values())
@@ -143,7 +121,7 @@ class Frozen:
 
         The value comes first and its rate follows.
         """
-        return self.image.place(self.host, _HOST_WORDS + 2 * self.given.index(name))
+        return self.image.place(self.host, _HOST_WORDS + 2 * self.inputs.names.index(name))
 
     def of_row(self, rows: Any, row: int, field: str) -> int:
         """Return the place of a field in a table.
@@ -186,19 +164,25 @@ def freeze(
     Raises
     ------
     SolverError, UsageError
-        As for :func:`lambda_core.solver.drivers.external_inputs.start` and
+        As for :func:`lambda_core.solver.drivers.coupling.coupled_engine` and
         :func:`lambda_core.export.fmu.curves.constants`.
     """
     if any(one.cage.per_row for one in model.bearing_models.values()):
         raise UsageError("an FMU has one cage in each bearing: leave out per_row of the cage")
-    begun = (_OneBearing if isinstance(model, BearingModel) else _Machine)(model, couple, announce)  # type: ignore[arg-type]
-    core, context, memory, scratch = begun.engine.parts()
+    engine = coupled_engine(model, couple, announce, _CAPACITY)
+    core, context, memory, scratch = engine.parts()
+    # What a machine is given goes from the host's memory to the terms that follow it.
+    machine = engine.start if isinstance(engine, MachineEngine) else None
+    given = np.zeros(0) if machine is None else engine.inputs.values[:, :2].ravel()
     memory.control["sample_interval"] = math.inf
     bundle = context.bundle
-    host = host_words(_HOST_WORDS + begun.inputs.size + len(options))
-    host[_HOST_WORDS : _HOST_WORDS + begun.inputs.size] = begun.inputs
-    host[_HOST_WORDS + begun.inputs.size :] = [option.start for option in options]
-    prescribed, electric, start_ = begun.prescribed, begun.circuit, begun.start
+    host = host_words(_HOST_WORDS + given.size + len(options))
+    host[_HOST_WORDS:] = [*given, *(option.start for option in options)]
+    prescribed = prescribed_rings(context, engine.inputs.names) if couple == "motion" else None
+    contacts = scratch.contacts.size // scratch.contacts.shape[-1]
+    electric = circuit(engine.model, context.assembly.spans(), contacts, announce)
+    # The search for a start in C is that of balls; rollers begin at the equilibrium of their case, as machines do.
+    start_ = prepare_start(engine.begun) if isinstance(engine, BearingEngine) and not engine.model.rollers else None
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
@@ -238,11 +222,11 @@ def freeze(
     assert list(BODIES)[:2] == ["inner_ring", "outer_ring"]
     followed: list[Constant] = []
     if options and changed is not None:
-        parts = _parts(begun.engine)
+        parts = _parts(engine)
         where = np.concatenate([image.place(part) + 8 * np.arange(part.size) for part in parts])
 
         def sample(values: Mapping[str, float]) -> FloatArray:
-            return _joined(_parts(begun.alike(changed(values))))  # type: ignore[arg-type]
+            return _joined(_parts(alike(engine, changed(values), _CAPACITY)))
 
         found = constants(options, _joined(parts), sample)
         followed = [dataclasses.replace(each, word=int(where[each.word])) for each in found]
@@ -251,10 +235,9 @@ def freeze(
         duration=model.solver.duration,
         image=image,
         entries=entries,
-        bearings=begun.bearings,
-        given=begun.given,
-        terms=begun.engine.given,
-        wrenches=(bundle.contact_wrenches if begun.machine else bundle.body_wrenches).view(np.float64),
+        bearings=engine.bearings,
+        inputs=engine.inputs,
+        wrenches=(bundle.contact_wrenches if machine else bundle.body_wrenches).view(np.float64),
         memory=memory,
         scratch=scratch,
         bundle=bundle,
@@ -265,76 +248,8 @@ def freeze(
         losses=scratch.rates.shape[-1] - L.NOT_LOST,
         circuit=electric,
         prescribed=prescribed,
-        machine=begun.machine,
+        machine=machine,
     )
-
-
-class _OneBearing:
-    """A bearing that is alone, at its start."""
-
-    machine = None
-    inputs: FloatArray = np.zeros(0)
-
-    def __init__(self, model: BearingModel, couple: Coupling, announce: Announce) -> None:
-        model, equilibrium = start(model, couple, announce)
-        self.given, self._couple, self._equilibrium = given_names(model, couple), couple, equilibrium
-        # The search for a start in C is that of balls; rollers begin at the equilibrium of their case, as machines do.
-        self.start: Start | None = None if model.rollers is not None else prepare_start(equilibrium)
-        self.engine = BearingEngine(model, announce, equilibrium, given=self.given, capacity=_CAPACITY)
-        _, context, _, _ = self.engine.parts()
-        self.prescribed = prescribed_rings(context, self.given) if couple == "motion" else None
-        self.circuit = _circuit(model, self.engine, announce)
-        self.bearings = (FrozenBearing("", model, context.assembly.spans()[0]),)
-
-    def alike(self, model: BearingModel) -> BearingEngine:
-        """Return an engine of another model, otherwise alike.
-
-        It has the state and the contact frame of the first.
-        """
-        base, given = self._equilibrium, self.given
-        if self._couple == "motion":  # the host holds the rings where the base has them
-            own = base.context.model
-            inner = dataclasses.replace(model.inner_ring, dofs=own.inner_ring.dofs)
-            outer = dataclasses.replace(model.outer_ring, dofs=own.outer_ring.dofs)
-            model = dataclasses.replace(model, inner_ring=inner, outer_ring=outer)
-        kernels, frame = base.context.kernels, base.context.frame
-        context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))
-        return BearingEngine(model, None, dataclasses.replace(base, context=context), given=given, capacity=_CAPACITY)
-
-
-class _Machine:
-    """A machine at its start."""
-
-    start = prescribed = None
-
-    def __init__(self, machine: MachineModel, couple: Coupling, announce: Announce) -> None:
-        check_coupling(machine, couple)
-        self.machine = machine_start(machine, announce, is_given=True)
-        given = self.machine.given
-        assert given is not None
-        self.given, self.inputs = given.names, given.values[:, :2].ravel()
-        self.engine = MachineEngine(self.machine, announce, capacity=_CAPACITY)
-        self.circuit = _circuit(machine, self.engine, announce)
-        self.bearings = tuple(FrozenBearing(one.name, one.context.model, one.span) for one in self.engine.bearings)
-
-    def alike(self, machine: MachineModel) -> MachineEngine:
-        """Return an engine of another model, otherwise alike.
-
-        It has the state and the contact frames of the first.
-        """
-        return MachineEngine(changed_start(self.machine, machine), capacity=_CAPACITY)
-
-
-def _circuit(
-    model: BearingModel | MachineModel, engine: BearingEngine | MachineEngine, announce: Announce
-) -> Circuit | None:
-    """Return the circuit of the moving model.
-
-    None where its case has none.
-    """
-    contacts = engine.parts()[3].contacts
-    spans = engine.context.assembly.spans()
-    return circuit(model, spans, contacts.size // contacts.shape[-1], announce)
 
 
 def _parts(engine: BearingEngine | MachineEngine) -> list[FloatArray]:

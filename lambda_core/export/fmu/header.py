@@ -22,9 +22,9 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import ROLES
 from lambda_core.solver.arrays.integrator_memory import COUNT
 from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
+from lambda_core.solver.drivers.coupling import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
-from lambda_core.solver.drivers.external_inputs import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
-from lambda_core.solver.drivers.machine_inputs import SHAFT_SPIN
+from lambda_core.solver.drivers.external_inputs import SHAFT_SPIN
 from lambda_core.solver.drivers.ring_values import are_ribs, rings_of_contacts
 from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status
@@ -158,9 +158,11 @@ def _part_table(frozen: Frozen) -> list[str]:
     """
     parts = []
     for one in frozen.bearings:
-        geometry = one.model.geometry
+        geometry = one.context.model.geometry
         rings, ribs = rings_of_contacts(geometry), are_ribs(geometry).astype(int)
-        element, grooves = ("ball", _grooves(geometry)) if one.model.rollers is None else ("roller", _NO_GROOVES)
+        element, grooves = (
+            ("ball", _grooves(geometry)) if one.context.model.rollers is None else ("roller", _NO_GROOVES)
+        )
         label = f"{one.name}: " if one.name else ""
         parts.append(
             f'{{"{label}", "{element}", {one.span.first_ball}, {one.span.balls}, {len(rings)}, '
@@ -219,7 +221,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "SPEED": repr(start.speed),
         "SMOOTH_WORK": MAX_ITERATIONS[False],
         "FRICTION_WORK": MAX_ITERATIONS[True],
-        "PATH_ITERATIONS": 0 if frozen.bearings[0].model.geometry.kind.on_sphere else PATH_ITERATIONS,
+        "PATH_ITERATIONS": 0 if frozen.bearings[0].context.model.geometry.kind.on_sphere else PATH_ITERATIONS,
         "PATH_SHARE": PATH_SHARE,
         "PATH_TOLERANCE": PATH_TOLERANCE,
         "NO_PATH": NO_PATH,
@@ -235,14 +237,13 @@ def _followers(frozen: Frozen) -> Iterator[tuple[int, int, list[tuple[int, float
 
     They have the time since when they follow, and their shares.
     """
-    given = frozen.machine.given if frozen.machine else None
-    for row, shares in given.shares.items() if given else ():
-        begin = frozen.of_row(frozen.terms, row, "begin")
+    for row, shares in frozen.inputs.shares.items() if frozen.machine else ():
+        begin = frozen.of_row(frozen.inputs.rows, row, "begin")
         for k, field in enumerate(("value", "rate")):
-            if k and [frozen.given[number] for number, _ in shares] != [SHAFT_SPIN]:
+            if k and [frozen.inputs.names[number] for number, _ in shares] != [SHAFT_SPIN]:
                 continue  # loads have no rates
-            sources = [(frozen.input_place(frozen.given[number]) + 8 * k, weight) for number, weight in shares]
-            yield frozen.of_row(frozen.terms, row, field), begin, sources
+            sources = [(frozen.input_place(frozen.inputs.names[number]) + 8 * k, weight) for number, weight in shares]
+            yield frozen.of_row(frozen.inputs.rows, row, field), begin, sources
 
 
 def _machine_tables(frozen: Frozen, variables: Sequence[Variable]) -> list[str]:
@@ -337,7 +338,7 @@ def _slope_table(frozen: Frozen) -> list[str]:
 
 
 def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:
-    return ((name, frozen.of_row(frozen.terms, row, "value")) for row, name in enumerate(frozen.given))
+    return ((name, frozen.of_row(frozen.inputs.rows, row, "value")) for row, name in enumerate(frozen.inputs.names))
 
 
 def _start_tables(frozen: Frozen) -> list[str]:

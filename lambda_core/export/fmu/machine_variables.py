@@ -13,7 +13,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER, SPIN
 from lambda_core.elements.ball.raceways import raceways
-from lambda_core.export.fmu.frozen import Frozen, FrozenBearing
+from lambda_core.export.fmu.frozen import Frozen
 from lambda_core.export.fmu.prescribed_rings import TILT_STATES
 from lambda_core.export.fmu.variables import Kind, Variable, named, of_circuit, of_contacts, steps
 from lambda_core.formulas.elastic.beam import NODE
@@ -21,9 +21,10 @@ from lambda_core.model.bodies.locations import carried, carried_by_shaft
 from lambda_core.model.machine_model import SHAFT, BearingPart, MachineModel, Place
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.external_inputs import SHAFT_SPIN, load_places
 from lambda_core.solver.drivers.machine_assembly import member_numbers
-from lambda_core.solver.drivers.machine_inputs import SHAFT_SPIN, load_places
 from lambda_core.solver.drivers.machine_motion import MachineStart
+from lambda_core.solver.drivers.readings import ReadBearing
 
 _UNITS = {"force": "N", "moment": "N m"}
 _TURN_ABOUT_X = 3  # row of a node
@@ -69,7 +70,7 @@ def machine_variables(frozen: Frozen, start: MachineStart) -> Iterator[Variable]
 
 def _inputs(machine: _Machine) -> Iterator[Variable]:
     frozen = machine.frozen
-    for name in frozen.given:
+    for name in frozen.inputs.names:
         at = frozen.input_place(name)
         if name == SHAFT_SPIN:
             text, speed = "speed of the shaft", machine.model.speed
@@ -143,7 +144,7 @@ def _is_free(machine: _Machine, member: int) -> bool:
     return any(dofs[dof].mode != "locked" for dof in _POSE)
 
 
-def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
+def _motions(machine: _Machine, one: ReadBearing) -> Iterator[Variable]:
     """Yield a bearing's motions and forces.
 
     They are motions of rings and cage, and what the bearing exerts on the shaft.
@@ -153,7 +154,7 @@ def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
         member = one.span.bodies[which]
         if _is_free(machine, member):
             yield from _pose(machine, f"{name}.{ring}", f"the {BODIES[ring]} of {one.name}", member)  # type: ignore[index]
-    if one.model.depth.cage:
+    if one.context.model.depth.cage:
         at = machine.state(one.span.bodies[CAGE], L.SSIGMA)
         yield Variable(f"{name}.cage.spin", f"speed of the cage of {one.name}", "rad/s", Kind.VALUE, at)
     if len(machine.frozen.bearings) == 1:
@@ -166,7 +167,7 @@ def _motions(machine: _Machine, one: FrozenBearing) -> Iterator[Variable]:
             yield Variable(f"{name}.reaction_{kind}_{axis}", text, _UNITS[kind], Kind.VALUE, at)
 
 
-def _bearing(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[Variable]:
+def _bearing(machine: _Machine, number: int, one: ReadBearing) -> Iterator[Variable]:
     """Yield the answers of a bearing."""
     name = named(f"bearings.{one.name}")
     yield from of_contacts(machine.frozen, name, f" of {one.name}", one.span.first_ball, one.span.balls)
@@ -185,10 +186,10 @@ def _bearing(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[Var
     )
 
 
-def _losses(machine: _Machine, number: int, one: FrozenBearing) -> Iterator[int]:
+def _losses(machine: _Machine, number: int, one: ReadBearing) -> Iterator[int]:
     """Yield the places of the powers that a bearing dissipates."""
     frozen, every = machine.frozen, int(machine.frozen.bundle.raceways.size)
-    own = range(one.span.first_raceway, one.span.first_raceway + len(raceways(one.model.geometry)))
+    own = range(one.span.first_raceway, one.span.first_raceway + len(raceways(one.context.model.geometry)))
     for mechanism in range(L.MECHANISMS):
         for raceway in own:
             yield frozen.image.place(frozen.scratch.rates, mechanism * every + raceway)

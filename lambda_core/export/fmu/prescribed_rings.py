@@ -87,7 +87,7 @@ def axis_of(name: str, field: str) -> tuple[int, float]:
     Parameters
     ----------
     name : str
-        As :func:`lambda_core.solver.drivers.external_inputs.given_names` has it.
+        As :func:`lambda_core.solver.drivers.coupling.given_names` has it.
     field : "value", "rate" or "acceleration"
     """
     body, word = name.split(".")

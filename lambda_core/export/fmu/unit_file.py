@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.solver.drivers.external_inputs import Coupling
+    from lambda_core.solver.drivers.coupling import Coupling
 
 PROCESSORS = {
     "x86-64-v3": "of Intel since 2013 and AMD since 2015",
@@ -101,7 +101,7 @@ def export_fmu(
     from lambda_core.domain.lists import listed
     from lambda_core.export.fmu.varied import varied
     from lambda_core.model.api import check
-    from lambda_core.solver.drivers.external_inputs import check_coupling, check_known
+    from lambda_core.solver.drivers.coupling import check_coupling, check_known
 
     wanted = tuple(dict.fromkeys(listed(platforms, "platforms")))
     if fmi not in _VERSIONS:

@@ -130,12 +130,12 @@ def _unit(name: str) -> tuple[str, str, str]:
 
 def _inputs(frozen: Frozen) -> Iterator[Variable]:
     """Yield what a host gives, with the rates of motions."""
-    for row, name in enumerate(frozen.given):
-        begin = frozen.of_row(frozen.terms, row, "begin")
+    for row, name in enumerate(frozen.inputs.names):
+        begin = frozen.of_row(frozen.inputs.rows, row, "begin")
         for field, unit in zip(("value", "rate", "acceleration"), _unit(name), strict=True):
             if unit:
-                place = frozen.of_row(frozen.terms, row, field)
-                start = float(frozen.terms[row][field])
+                place = frozen.of_row(frozen.inputs.rows, row, field)
+                start = float(frozen.inputs.rows[row][field])
                 full = name if field == "value" else f"{name}_{field}"
                 text = _input_text(name, field)
                 axis, turn = axis_of(name, field)

@@ -28,7 +28,7 @@ from lambda_core.solver.drivers.engine import (
     usual_interval,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
-from lambda_core.solver.drivers.external_inputs import make_room
+from lambda_core.solver.drivers.external_inputs import ExternalInputs, bearing_inputs, no_inputs
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch
 from lambda_core.solver.drivers.readings import (
@@ -83,8 +83,8 @@ class MotionStart:
         Highest frequency that vibrations are followed to [Hz]; 0: averages are the answer.
     modes_until : float, optional
         Highest frequency of the modes that are reported [Hz]; by default those that are damped least are.
-    given : records.TERM[:]
-        One row for each signal from outside.
+    inputs : ExternalInputs
+        Loads and motions from another program.
     """
 
     context: SolverContext
@@ -95,7 +95,7 @@ class MotionStart:
     longest_step: float
     resolve: float = 0.0
     modes_until: float | None = None
-    given: Any = field(default_factory=lambda: np.zeros(0, R.TERM))
+    inputs: ExternalInputs = field(default_factory=no_inputs)
 
 
 class MotionEngine:
@@ -118,13 +118,13 @@ class MotionEngine:
         Tables and memory of what moves.
     sample_interval : float
         Time between samples [s].
-    given : records.TERM[:]
-        One row for each of the signals from outside, which may be written to between two calls of :meth:`advance`.
+    inputs : ExternalInputs
+        Loads and motions from another program, which may be given between two calls of :meth:`advance`.
     """
 
     def __init__(self, start: MotionStart, announce: Announce = None, *, capacity: int = CAPACITY) -> None:
         self._core, self.context, self._readings = core(announce), start.context, start.readings
-        self.sample_interval, self.given, self._modes_until = start.sample_interval, start.given, start.modes_until
+        self.sample_interval, self.inputs, self._modes_until = start.sample_interval, start.inputs, start.modes_until
         self._memory = make_memory(
             start.state, self.context.scale, start.tolerance, self.context.bundle, capacity,
             stages=STAGES if start.resolve else 0,
@@ -320,8 +320,8 @@ class MotionEngine:
                     parts[f"{prefix}.{name}"] = array[:waiting].copy()
         parts |= {f"readings.{name}": array for name, array in self._readings.state().items()}
         parts["start_energy"] = np.array([self._start_energy])
-        if self.given.size:
-            parts["given"] = self.given.view(np.float64).copy()
+        if self.inputs.names:
+            parts |= {f"given.{name}": array for name, array in self.inputs.state().items()}
         return parts
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
@@ -332,13 +332,15 @@ class MotionEngine:
         SolverError
             When the state is of another model.
         """
-        groups, read = self._groups(), {}
+        groups, read, given = self._groups(), {}, {}
         for key, saved in state.items():
             prefix, _, name = key.partition(".")
             if key == _ADDRESSES:
                 continue
             if prefix == "readings":
                 read[name] = saved
+            elif prefix == "given":
+                given[name] = saved
             elif prefix in groups:
                 array = getattr(groups[prefix], name)
                 if name in _BUFFER:
@@ -348,8 +350,8 @@ class MotionEngine:
                 array[...] = saved
         self._readings.restore(read)
         self._start_energy = float(state["start_energy"][0])
-        if self.given.size:
-            self.given.view(np.float64)[:] = state["given"]
+        if self.inputs.names:
+            self.inputs.restore(given)
 
     def _groups(self) -> dict[str, Any]:
         """Return the memory of a motion.
@@ -383,6 +385,8 @@ class BearingEngine(MotionEngine):
     ----------
     channels : tuple of Channel
         What every sample carries.
+    begun : Equilibrium
+        That it started from.
 
     Raises
     ------
@@ -401,8 +405,8 @@ class BearingEngine(MotionEngine):
     ) -> None:
         self.model = model
         self.channels = result_channels(model)
-        self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
-        super().__init__(bearing_start(self._equilibrium, model, given), announce, capacity=capacity)
+        self.begun = equilibrium or solve(model, announce=announce, strict=False)
+        super().__init__(bearing_start(self.begun, model, given), announce, capacity=capacity)
 
     @property
     def kernel_keys(self) -> dict[str, str]:
@@ -434,7 +438,7 @@ class BearingEngine(MotionEngine):
 
     def equilibrium(self) -> Mapping[str, object]:
         """Return the quasi-static solution the run started from."""
-        e = self._equilibrium
+        e = self.begun
         return {
             "contacts": e.contacts,
             "contact_channels": CONTACT_CHANNELS,
@@ -455,7 +459,6 @@ def bearing_start(equilibrium: Equilibrium, model: BearingModel, given: Sequence
         That of the equilibrium, maybe with other settings of solver and output.
     """
     context = equilibrium.context
-    rows = make_room(context, given)
     return MotionStart(
         context=context,
         state=initial_state(equilibrium),
@@ -464,7 +467,7 @@ def bearing_start(equilibrium: Equilibrium, model: BearingModel, given: Sequence
         sample_interval=model.output.interval or usual_interval(model, equilibrium.orbit),
         longest_step=min(model.solver.max_step, longest_step(context)),
         resolve=model.solver.resolve,
-        given=rows,
+        inputs=bearing_inputs(context, given),
     )
 
 

@@ -21,9 +21,9 @@ from lambda_core.solver.drivers.compiled_laws import Announce, derive_oils
 from lambda_core.solver.drivers.dynamics import CAPACITY, MotionEngine, MotionStart, initial_state
 from lambda_core.solver.drivers.engine import usual_interval
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.external_inputs import machine_inputs, no_inputs
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
-from lambda_core.solver.drivers.machine_inputs import MachineInputs, machine_inputs
 from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
 from lambda_core.solver.drivers.row_cages import cages_in, own_bodies, put_cages
@@ -51,8 +51,6 @@ class MachineStart:
     motion : MotionStart
         What the engine begins with.
     readings : MachineReadings
-    given : MachineInputs, optional
-        Loads and speed from another program.
     """
 
     machine: MachineModel
@@ -61,7 +59,6 @@ class MachineStart:
     equilibria: tuple[Equilibrium, ...]
     motion: MotionStart
     readings: MachineReadings
-    given: MachineInputs | None = None
 
     @property
     def drive_torque(self) -> float:
@@ -111,7 +108,7 @@ def changed_start(start: MachineStart, machine: MachineModel) -> MachineStart:
         assemble(with_free_bodies(one.model), old.kernels, old.frame, derive_oils(one.model, old.kernels, old.frame))
         for one, old in zip(machine.bearings, (found.context for found in start.equilibria), strict=True)
     ]
-    given = start.given is not None
+    given = bool(start.motion.inputs.names)
     return _begun(machine, lump(machine), start.state, start.equilibria, alone, is_given=given)
 
 
@@ -127,9 +124,9 @@ def _begun(
     context = context_of(_with_guided_cages(assembly, equilibria, state.outer) if guides_cages else assembly)
     names = [bearing.name for bearing in machine.bearings]
     bearings = tuple(map(ReadBearing, names, alone, context.assembly.spans()))
-    given = machine_inputs(machine, shaft, context) if is_given else None
+    inputs = machine_inputs(machine, shaft, context) if is_given else no_inputs()
     changes = any(term.kind != "constant" for function in machine.prescribed_motions for term in function.terms)
-    changes = changes or guides_cages or (given is not None and given.turns)
+    changes = changes or guides_cages or inputs.turns
     solvers = [bearing.model.solver for bearing in machine.bearings]
     intervals = [
         one.model.output.interval or usual_interval(one.model, found.orbit)
@@ -148,9 +145,9 @@ def _begun(
         longest_step=min(steps),
         resolve=machine.solver.resolve,
         modes_until=machine.solver.resolve,
-        given=np.zeros(0, R.TERM) if given is None else given.rows,
+        inputs=inputs,
     )
-    return MachineStart(machine, shaft, state, equilibria, motion, readings, given)
+    return MachineStart(machine, shaft, state, equilibria, motion, readings)
 
 
 class MachineEngine(MotionEngine):
@@ -189,7 +186,7 @@ class MachineEngine(MotionEngine):
         return MachineSamples(machine, bearings)
 
     @property
-    def machine(self) -> MachineModel:
+    def model(self) -> MachineModel:
         """Model in motion."""
         return self.start.machine
 
