@@ -48,7 +48,7 @@ _HALF_LOADED_LINES = 1.3
 
 @dataclass(frozen=True)
 class FreshBearing:
-    """What a new case says of its bearing.
+    """Bearing of a new case, with its template.
 
     Attributes
     ----------
