@@ -165,7 +165,7 @@ def _varied(frozen: Frozen) -> Iterator[Variable]:
 
 
 def _pose(frozen: Frozen, name: str, title: str, member: int) -> Iterator[Variable]:
-    """Yield how a member stands and moves, but for its spin."""
+    """Yield a pose and its rates, without spin."""
     for axis, dof in enumerate(_POSE):
         state, sign, slope = TILT_STATES.get(dof, (L.SX + axis, 1.0, L.SVX + axis))
         unit, at = "rad" if dof.startswith("tilt") else "m", _state(frozen, member, state)
