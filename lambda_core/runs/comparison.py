@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from pydantic import Field
@@ -11,17 +11,18 @@ from pydantic import Field
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.results.answer import Answer
 from lambda_core.results.averages import finite
-from lambda_core.results.provenance import differences, model_data
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.text import contamination_text
+from lambda_core.runs.same_case import changed_values
 from lambda_core.views.method import GROUP_UNITS, MethodAnswer
 
 if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
 
 SIMULATION = "simulation"
@@ -96,47 +97,30 @@ class Comparison(Answer):
         return "\n".join(lines)
 
 
-def comparison_of(
-    model: BearingModel, answers: Iterable[MethodAnswer], clean: tuple[float, bool], result: Result | None = None
-) -> Comparison:
-    """Compare the answers of methods and a simulation.
-
-    They are of the same model.
-
-    `clean` is e_C of ISO 281, and whether case or caller gives it.
-
-    Raises
-    ------
-    UsageError
-        When the result is of another case.
-    """
-    from lambda_core.model.checks.describe import headline
-
-    simulated = [] if result is None else [simulated_by(model, result)]
-    return Comparison(
-        case=model.name,
-        title=model.title,
-        headline="\n".join(headline(model)),
-        methods=[*simulated, *map(compared, answers)],
-        assumptions=list(model.assumptions),
-        contamination=clean[0],
-        contamination_given=clean[1],
-    )
-
-
-def simulated_by(model: BearingModel, result: Result) -> ComparedMethod:
+def simulated_by(model: BearingModel | MachineModel, bearing: str, result: Result) -> ComparedMethod:
     """Return the rows of a simulation that methods have too.
 
+    Parameters
+    ----------
+    model : BearingModel or MachineModel
+        Of the case that is compared.
+    bearing : str
+        The bearing of a machine; empty where it is alone.
+
     Raises
     ------
     UsageError
         When the result is of another case.
     """
-    changed = differences(result.model, model_data(model))
+    changed = [
+        f"{name}.{path}" if name and result.is_machine else path
+        for name, paths in changed_values(result, model).items()
+        for path in paths
+    ]
     if changed:
         more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
         raise UsageError(f"{result.path} is of another case: {', '.join(changed[:3])}{more} differ")
-    return _simulated(result.summary(), model)
+    return _simulated(result.of_bearing(bearing or None).summary(), model.bearing_models[bearing])
 
 
 def compared(answer: MethodAnswer) -> ComparedMethod:

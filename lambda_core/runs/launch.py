@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.domain.units import show
@@ -20,13 +19,14 @@ from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.settings.resolve_solver import MOST_TIME
 from lambda_core.results.opening import ResultError
-from lambda_core.results.provenance import Provenance, differences, machine_data, model_data
+from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
 from lambda_core.runs.beginning import begin
 from lambda_core.runs.law_blame import BlamingEngine
 from lambda_core.runs.loop import resume, run
 from lambda_core.runs.progress import Report
 from lambda_core.runs.run_engine import BearingsInMotion, RunEngine
+from lambda_core.runs.same_case import changed_values, named_models
 from lambda_core.runs.session import Attachments
 from lambda_core.solver.code_files import physics_key
 
@@ -101,23 +101,17 @@ def _check_same(result: Result, model: Runnable) -> None:
 
     It resolves to other values than those of the run.
     """
-    models = {name or ALONE: own for name, own in model.bearing_models.items()}
+    models = named_models(model)
     if tuple(models) != result.bearing_names:
         raise ResultError(f"{result.path} is damaged: its case has other bearings than the result")
-    for name, own in result.bearings.items():
-        changed = differences(own.model, model_data(models[name]))
-        if changed:
-            moved = _moved(models[name], own.model)
-            of = f"{name}: " if result.is_machine else ""
-            why = (
-                f"its laws have changed: {_some(moved)}"
-                if moved
-                else f"the case now resolves to other values: {of}{_some(changed)}"
-            )
-            raise ResultError(f"{result.path} cannot go on: {why}; {_anew(result.path)}")
-    changed = differences(result.machine, machine_data(model)) if isinstance(model, MachineModel) else []
-    if changed:
-        why = f"the case now resolves to other values: {_some(changed)}"
+    for name, changed in changed_values(result, model).items():
+        moved = _moved(models[name], result.bearings[name].model) if name else []
+        of = f"{name}: " if name and result.is_machine else ""
+        why = (
+            f"its laws have changed: {_some(moved)}"
+            if moved
+            else f"the case now resolves to other values: {of}{_some(changed)}"
+        )
         raise ResultError(f"{result.path} cannot go on: {why}; {_anew(result.path)}")
 
 

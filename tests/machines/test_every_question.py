@@ -141,6 +141,19 @@ def notebook(folder: Path) -> None:
     assert table["deflection_um"].shape == (len(still.positions_mm), 3)
 
 
+def compared_with_run(folder: Path) -> None:
+    """Compare one bearing with its simulation.
+
+    A result of a machine was refused. A result of another case is refused with the bearing whose values differ.
+    """
+    asked: dict[str, Any] = {"bearing": "left", "methods": ["skf"], "result": folder / "box.h5"}
+    found = api.compare(folder / "box.toml", RUN, **asked)
+    run = api.result(folder / "box.h5").summary().bearings["left"]
+    assert found.value("simulation", "friction", "total") == run.friction_torque_Nmm
+    with pytest.raises(api.UsageError, match=r"is of another case: right\.geometry\.clearance"):
+        api.compare(folder / "box.toml", [*RUN, "bearings.right.clearance=11 um"], **asked)
+
+
 def live_circuit(folder: Path) -> None:
     """Check the circuit of a motion.
 
@@ -226,6 +239,7 @@ ROWS: dict[str, list[Step]] = {
         (["cross-check", "box.toml", "--bearing", "right", "--duration", "1 ms", "--json", "-q"], "agree"),
     ],
     "compare": [(["compare", "box.toml", "--bearing", "right", "--json", "-q"], "methods"),
+                compared_with_run,
                 (["view", "box.h5", "catalogues", *LEFT, "--format", "png"], ".png")],
     "export fmu, iterate": [coupled, (["export", "fmu", "box.toml", "--processor", "native", "-q"], "box.fmu")],
     "estimate": [(["estimate", "box.toml", "--json", "-q"], "processor_s")],

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.channels import LOSSES
-from lambda_core.domain.errors import SolverError
-from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.method_inputs import method_inputs, permittivity_over_pressure
 from lambda_core.views.method import (
     ContactLoad,
     EquilibriumState,
-    Method,
-    MethodAnswer,
     MethodInputs,
-    evaluate_methods,
 )
 
 if TYPE_CHECKING:
@@ -92,26 +87,3 @@ def comparison_inputs(
         contamination=contamination,
     )
     return found if loads is None else replace(found, radial_load=loads[0], axial_load=loads[1])
-
-
-def compare(
-    model: BearingModel,
-    methods: Iterable[Method],
-    *,
-    contamination: float | None = None,
-    announce: Announce = None,
-) -> tuple[MethodAnswer, ...]:
-    """Ask every method about one case, at its start.
-
-    Raises
-    ------
-    SolverError
-        When there is no quasi-static equilibrium: without loads per ball the comparison would be of different cases.
-    """
-    from lambda_core.solver.drivers.equilibrium import solve
-
-    try:
-        equilibrium = solve(model, announce=announce)
-    except SolverError as error:
-        raise SolverError(f"{model.name}: nothing to compare: {error}") from error
-    return evaluate_methods(methods, comparison_inputs(equilibrium, contamination=contamination))
