@@ -40,7 +40,7 @@ class MeasuredSeries(Record):
     case: str | dict[str, Any] = Field(
         default="", description="case that it is compared with, by name or as tables; empty where there is none"
     )
-    bearing: str = Field(default="", description="what was measured, where there is no case")
+    bearing: str = Field(default="", description="what was measured and is missing, where there is no case")
     source: str = Field(description="who measured it and where it is published")
     licence: str = Field(description="of the numbers")
     how_read: str = Field(description="from a table, a picture, or a formula fitted by the source")
@@ -51,11 +51,12 @@ class MeasuredSeries(Record):
 class _Loaded:
     """A series with its points and with what predicts them.
 
-    Without a case `refused` is None, too; otherwise it says what is wrong with the case.
+    Without a case `refused` is None, too; otherwise it says what is wrong with the case. A series of the program
+    without a case may have no points.
     """
 
     series: MeasuredSeries
-    measurements: Measurements
+    measurements: Measurements | None
     subject: Subject | None
     refused: LambdaError | None
 
@@ -215,6 +216,8 @@ def _load(name: str) -> _Loaded:
         raise UsageError(unknown_name("measured series", name, known))
     folder = next(one for one in _folders() if one.joinpath(f"{name}.toml").is_file())
     file = folder.joinpath(f"{name}.csv")
+    if not file.is_file() and not known[name].case:
+        return _Loaded(known[name], None, None, None)
     if not file.is_file():
         raise UsageError(f"measured series {name}: {name}.csv with its points is missing next to {name}.toml")
     subject, refused = _subject(known[name])
@@ -279,6 +282,7 @@ def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:
 def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
     data, subject, found = one.measurements, one.subject, []
     assert subject is not None  # the series has a case
+    assert data is not None  # and points
     for row, line in enumerate(data.lines):
         changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]

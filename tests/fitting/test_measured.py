@@ -6,6 +6,7 @@ Their data, and the comparison without any fit.
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,8 @@ PAGE = Path(__file__).parents[2] / "docs/validation.md"
 
 def test_every_series_names_source_licence_and_uncertainty() -> None:
     found = {series.name: series for series in api.measured_series()}
-    assert {"6319-friction", "32216-axial", "32216-combined", "32008-axial", "lm12700-axial"} <= set(found)
+    known = {"6319-friction", "32216-axial", "32216-combined", "32008-axial", "lm12700-axial", "32208-rib"}
+    assert known | {"tnd7870-cage", "balls-51205-rolling"} <= set(found)
     for series in found.values():
         assert all((series.title, series.source, series.licence, series.how_read, series.uncertainty))
         assert series.case or series.bearing
@@ -33,6 +35,15 @@ def test_the_6319_is_the_printed_table_and_near_it() -> None:
     assert [point.measured for point in one.points] == list(TABLE_4[MEASURED])
     assert one.mean_absolute_error_pct is not None
     assert one.mean_absolute_error_pct < 10.0
+
+
+@pytest.mark.parametrize(
+    ("name", "why"), [("32208-rib", "oil"), ("tnd7870-cage", "load"), ("balls-51205-rolling", "speeds")]
+)
+def test_series_without_points_or_conditions_say_what_is_missing(name: str, why: str) -> None:
+    (found,) = api.compare_measured([name]).compared
+    assert not found.points
+    assert re.search(rf"there is no case for it: .*{why}.* not", found.reason)
 
 
 def test_series_without_a_case_have_the_reason() -> None:
