@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import typer
 
 from lambda_cli.talk import columns
+from lambda_core.domain.value_status import ESTIMATED
 
 _ROOMY = 110  # columns of a terminal from which on notes stand in the table
 
@@ -65,10 +66,10 @@ def list_bearings(rows: Sequence[AnyBearing], json: bool) -> None:
         design, grade = "", "unknown"
         if "roller_count" in s:
             size = (s["roller_count"], _number(s["roller_diameter_mm"]), _number(s["roller_length_mm"]))
-            mark = "≈ " if s["geometry_status"] != "published" else ""
+            mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
             design, grade = mark + " x ".join(map(str, size)), f"{s['geometry_grade']} {s['geometry_status']}"
         elif s["ball_count"] is not None:
-            mark = "≈ " if s["geometry_status"] != "published" else ""
+            mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
             design = f"{mark}{s['ball_count']} x {_number(s['ball_diameter_mm'])}"
             grade = f"{s['geometry_grade']} {s['geometry_status']}"
         names = ("bore_mm", "outside_mm", "width_mm", *(["contact_angle_deg"] if angled else []), "C_kN", "C0_kN")
@@ -149,7 +150,7 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
 def _print_values(values: list[dict[str, Any]]) -> None:
     table = _table("value", ">", "unit", "status", "grade", "source")
     for value in values:
-        status = f"≈ {value['status']}" if value["status"] != "published" else value["status"]
+        status = f"≈ {value['status']}" if value["status"] in ESTIMATED else value["status"]
         table.add_row(
             value["name"], _number(value["value"], 10), value["unit"], status, value["grade"], value["source"]
         )
@@ -193,9 +194,10 @@ def show_lubricant(
     _print("")
     _print_values(values)
     _print("")
-    listed = _table("role", "model", "parameter", "value>", "unit", "grade", "source")
+    listed = _table("role", "model", "parameter", "value>", "unit", "status", "grade", "source")
     for p in parameters:
-        listed.add_row(p["role"], p["model"], p["name"], _number(p["value"], 10), p["unit"], p["grade"], p["source"])
+        told = [p[name] or "" for name in ("unit", "status", "grade", "source")]
+        listed.add_row(p["role"], p["model"], p["name"], _number(p["value"], 10), *told)
     _print(listed)
     _print("")
     _print(f"by {table.rheology}: {table.reference}")

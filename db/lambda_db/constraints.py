@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 from sqlalchemy import CheckConstraint
 
+from lambda_core.domain.value_status import RowStatus
+
 GRADES = ("A", "A-", "B", "B-", "C", "D")
-STATUSES = ("published", "derived", "assumed")
+STATUSES: tuple[str, ...] = get_args(RowStatus)
 # Groups of columns of a bearing that have a grade, and those that have a status.
 _RATED = ("dynamic_rating", "static_rating")
 _GRADED = ("dimensions", *_RATED, "catalogue", "geometry", "groove", "shoulder", "angle", "row_distance")

@@ -367,6 +367,7 @@ class LubricantParameter(Base):
     __table_args__ = (
         *named("lubricant", "role", "model", "name", "source"),
         grade(),
+        status(),
         *positive_names(),
         check("eps_r_range", "name <> 'eps_r' OR value >= 1", "eps_r must be at least 1"),
         STRICT,
@@ -380,3 +381,4 @@ class LubricantParameter(Base):
     unit: Mapped[str] = mapped_column(server_default="")
     source: Mapped[str]
     grade: Mapped[str]
+    status: Mapped[str | None]

@@ -19,11 +19,11 @@ from lambda_core.catalogue.protocol import (
     MaterialRow,
     Parameter,
     RollerRow,
-    Status,
     Value,
 )
 from lambda_core.catalogue.suffixes import Kind as SuffixKind
 from lambda_core.catalogue.suffixes import Suffix
+from lambda_core.domain.value_status import RowStatus
 from lambda_db.units import PROPERTIES, bare_name, column_si, to_si
 
 if TYPE_CHECKING:
@@ -196,7 +196,7 @@ def cage_row(row: Cage, sources: Sources) -> CageRow:
             value=number,
             source=sources.get(row.source, row.source),
             grade=row.grade,
-            status=cast(Status, row.status),
+            status=cast(RowStatus, row.status),
         )
 
     return CageRow(
@@ -233,7 +233,11 @@ def lubricant_row(
     nested: dict[str, dict[str, dict[str, Parameter]]] = {}
     for p in parameters:
         nested.setdefault(p.role, {}).setdefault(p.model, {})[p.name] = Parameter(
-            value=p.value, unit=p.unit, source=sources.get(p.source, p.source), grade=p.grade
+            value=p.value,
+            unit=p.unit,
+            source=sources.get(p.source, p.source),
+            grade=p.grade,
+            status=cast(RowStatus | None, p.status),
         )
     return LubricantRow(
         name=row.name,
@@ -244,7 +248,7 @@ def lubricant_row(
                 value=to_si(p.value, p.unit, PROPERTIES.get(p.name)),
                 source=sources.get(p.source, p.source),
                 grade=p.grade,
-                status=cast(Status, p.status),
+                status=cast(RowStatus, p.status),
             )
             for p in properties
         },

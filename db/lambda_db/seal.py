@@ -26,6 +26,7 @@ _ADDED = {
         *("row_distance_mm", "row_distance_source", "row_distance_grade", "row_distance_status"),
     ),
     "roller_design": ("limiting_speed_rpm",),
+    "lubricant_parameter": ("status",),
 }
 ACCEPT = "lambda-bearing db accept"
 

@@ -23,20 +23,26 @@ from lambda_db.seed_tables import VIEWED
 from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, is_denied, reason_of
 
 
-def _renew(connection: Connection, name: str) -> None:
+def _renew(connection: Connection, name: str, *, always: bool = False) -> None:
     """Make a table again with today's columns and constraints.
 
-    It keeps its rows.
+    It keeps its rows. With `always` its constraints have changed alone.
     """
     table = Base.metadata.tables[name]
     found = [row[1] for row in connection.exec_driver_sql(f"PRAGMA table_info({name})")]
-    if len(found) == len(table.columns):  # an earlier step has made it
+    if len(found) == len(table.columns) and not always:  # an earlier step has made it
         return
     columns = ", ".join(found)
     connection.exec_driver_sql(f"ALTER TABLE {name} RENAME TO before_{name}")
     table.create(connection)
     connection.exec_driver_sql(f"INSERT INTO {name} ({columns}) SELECT {columns} FROM before_{name}")
     connection.exec_driver_sql(f"DROP TABLE before_{name}")
+
+
+def _with_measured(connection: Connection) -> None:
+    """Let values be measured ones."""
+    for name in ("bearing", "roller_design", "cage", "lubricant_property", "lubricant_parameter"):
+        _renew(connection, name, always=True)
 
 
 def _with_seal(connection: Connection) -> None:
@@ -58,8 +64,9 @@ MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     4: lambda connection: _renew(connection, "bearing"),
     5: _with_rollers,
     6: lambda connection: _renew(connection, "roller_design"),
+    7: _with_measured,
 }
-SCHEMA_VERSION = 7
+SCHEMA_VERSION = 8
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, cast
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.roles import MOTION_ROLES
+from lambda_core.domain.value_status import ESTIMATED
 from lambda_gui.nodes import Keys
 from lambda_gui.rows import Surroundings
 
@@ -49,7 +50,7 @@ class CaseContext(Surroundings):
             return ""
         if value.path.startswith("forces.") and ".models." in value.path:
             return value.text
-        mark = "≈ " if value.status in ("derived", "assumed") else ""
+        mark = "≈ " if value.status in ESTIMATED else ""
         return f"{mark}{value.text}{f' ({value.grade})' if value.grade else ''}"
 
     def origin(self, keys: Keys) -> str:

@@ -16,6 +16,7 @@ from textual.timer import Timer
 from textual.widgets import DataTable, Input, Static
 
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.value_status import ESTIMATED
 from lambda_gui.details import bearing_text, lubricant_text
 from lambda_gui.footer import KeyLine
 from lambda_gui.from_catalogue import Kind, Taken, bearing_taken
@@ -269,7 +270,7 @@ def _bearing_cells(row: BearingRow) -> list[Text]:
     s = bearing_summary(row)
     design, grade = "", "not known"
     if s["ball_count"] is not None:
-        mark = "≈ " if s["geometry_status"] != "published" else ""
+        mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
         design = f"{mark}{s['ball_count']} x {s['ball_diameter_mm']:g}"
         grade = f"{s['geometry_grade']} {s['geometry_status']}"
     own = "" if row.layer == "core" else f" ({'own' if row.layer == 'user' else 'plugin'})"

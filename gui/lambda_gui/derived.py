@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rich.text import Text
 from textual.widgets import Static
 
+from lambda_core.domain.value_status import ESTIMATED
 from lambda_gui.checking import Check
 from lambda_gui.shown_units import fact_in_units
 
@@ -228,7 +229,7 @@ def _not_met(verdict: Any) -> list[str]:
 
 def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fact]:
     geometry = model.geometry
-    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in values)
+    estimated = any(v.path == "bearing.ball_diameter" and v.status in ESTIMATED for v in values)
     mark = "≈ " if estimated else ""
     yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
     yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"

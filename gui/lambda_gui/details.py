@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from rich.text import Text
 
+from lambda_core.domain.value_status import ESTIMATED
+
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
 
@@ -71,7 +73,7 @@ def lubricant_text(row: LubricantRow) -> Text:
         if law != heading:
             text.append(f"\n{law.replace('_', ' ')}\n", style="not bold dim")
             heading = law
-        _values(text, [{**parameter, "status": "published"}], sources, 25)
+        _values(text, [parameter], sources, 25)
     sources.write(text)
     return text
 
@@ -82,7 +84,7 @@ def _values(text: Text, values: list[dict[str, Any]], sources: Sources, name_wid
     They have ≈ where estimated, the grade, and the number of the source.
     """
     for value in values:
-        mark = "≈" if value["status"] != "published" else " "
+        mark = "≈" if value["status"] in ESTIMATED else " "
         number = f"{value['value']:.6g} {value['unit']}".strip()
         text.append(f"{value['name'].replace('_', ' '):<{name_width}}", style="not bold dim")
         text.append(f"{mark}{number:<{name_width - 8}}", style="not bold")

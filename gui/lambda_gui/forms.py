@@ -18,6 +18,7 @@ from textual.widgets import Button, Input, Static
 
 from lambda_core.api import FieldCard, field_card
 from lambda_core.domain.option_tree import members
+from lambda_core.domain.value_status import ESTIMATED
 from lambda_gui.case_context import CaseContext
 from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
@@ -242,7 +243,7 @@ class NodeForm(VerticalScroll, can_focus=False):
         table.add_column(no_wrap=True, style="dim")
         table.add_column(no_wrap=True, style="dim", justify="right")
         for value in found:
-            mark = "≈ " if value.status in ("derived", "assumed") else ""
+            mark = "≈ " if value.status in ESTIMATED else ""
             number = str(sources.number(value.source)) if self.size.width >= _ROOMY and value.source else ""
             keys = value.path.split(".")
             name = label_of(keys, keys[-1])

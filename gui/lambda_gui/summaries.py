@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.roles import DEFAULT_MODELS
+from lambda_core.domain.value_status import ESTIMATED
 from lambda_gui.nodes import Keys, Node, table_model
 
 if TYPE_CHECKING:
@@ -151,7 +152,7 @@ def _balls(around: CaseContext) -> str:
     count, size = (around.value(("bearing", "geometry", name)) for name in ("ball_count", "ball_diameter"))
     if count is None or size is None:
         return ""
-    return f"{'≈ ' if count.status in ('derived', 'assumed') else ''}{count.text} x {size.text}"
+    return f"{'≈ ' if count.status in ESTIMATED else ''}{count.text} x {size.text}"
 
 
 def _depth(depth: Any) -> str:

@@ -13,8 +13,7 @@ from typing import Literal, Protocol, runtime_checkable
 from pydantic import BaseModel, ConfigDict
 
 from lambda_core.catalogue.suffixes import Suffix
-
-Status = Literal["published", "derived", "assumed"]
+from lambda_core.domain.value_status import RowStatus
 
 
 class Frozen(BaseModel):
@@ -32,7 +31,7 @@ class Value(Frozen):
     value: float
     source: str
     grade: str  # A published and cross-read, B good, C weak, D not to be used
-    status: Status = "published"
+    status: RowStatus = "published"
 
 
 class Parameter(Frozen):
@@ -45,6 +44,7 @@ class Parameter(Frozen):
     unit: str  # "" for a plain number
     source: str
     grade: str
+    status: RowStatus | None = None  # None: its source tells
 
     def text(self) -> str | float:
         """Return what a case file would say for this parameter."""

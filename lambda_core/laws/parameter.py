@@ -33,7 +33,7 @@ def parameter(
     description: str,
     *,
     source: str = "",
-    status: Literal["published", "unconfirmed", "assumed", "numerical", "lubricant"] | None = None,
+    status: Literal["published", "measured", "unconfirmed", "assumed", "numerical", "lubricant"] | None = None,
     published_range: tuple[Bound, Bound] | None = None,
     by_kind: Mapping[str, Bound] | None = None,
     **constraints: Any,
@@ -49,10 +49,10 @@ def parameter(
     source : str
         Where default and range come from.
     status : str, optional
-        "published", what it is where a source is named; "unconfirmed" for a value in common use whose original
-        was not seen; "assumed" for an assumption to be printed with results, what a default without a source is;
-        "numerical" for a regularisation without physical meaning; "lubricant" for a property that the oil's
-        catalogue row brings.
+        "published", what it is where a source is named; "measured" by the author; "unconfirmed" for a value in
+        common use whose original was not seen; "assumed" for an assumption to be printed with results, what a default
+        without a source is; "numerical" for a regularisation without physical meaning; "lubricant" for a property that
+        the oil's catalogue row brings.
     published_range : tuple of float or str, optional
         Range found in the literature, written as in a case file; studies sample it.
     by_kind : mapping of str to float or str, optional

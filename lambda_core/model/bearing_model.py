@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.case.requirements import Requirements
 from lambda_core.domain.elements import SPIN
+from lambda_core.domain.value_status import ValueStatus
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -219,7 +220,7 @@ class ResolvedValue:
     quantity: str  # key of schema.units.UNITS, or "" for plain numbers and names
     source: str
     grade: str
-    status: Literal["given", "published", "derived", "assumed", "default"]
+    status: ValueStatus
 
 
 @dataclass(frozen=True)

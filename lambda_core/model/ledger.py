@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from lambda_core.catalogue.protocol import Value
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.units import show
+from lambda_core.domain.value_status import ValueStatus
 from lambda_core.model.bearing_model import ResolvedValue
 
 T = TypeVar("T")
-Status = Literal["given", "published", "derived", "assumed", "default"]
 
 
 @dataclass
@@ -29,7 +29,7 @@ class Ledger:
     place: Callable[[str], str] = str  # where in the file stands what the resolution calls so
 
     def record(
-        self, path: str, value: float | str, quantity: str, source: str, status: Status, grade: str = ""
+        self, path: str, value: float | str, quantity: str, source: str, status: ValueStatus, grade: str = ""
     ) -> None:
         """Freeze one value with its origin."""
         self.values.append(ResolvedValue(path, value, quantity, source, grade, status))

@@ -20,6 +20,7 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
+from lambda_core.domain.value_status import ESTIMATED, ValueStatus
 from lambda_core.elements.roller.roller_bearing import RollerBearing, is_conical
 from lambda_core.elements.roller.roller_capacitance import Dielectric
 from lambda_core.elements.roller.roller_clearance import roller_clearance
@@ -45,7 +46,7 @@ from lambda_core.model.laws.law_context import effective_modulus
 from lambda_core.model.laws.roller_dielectric import dielectric_of_case
 from lambda_core.model.laws.roller_laws import friction_of_case
 from lambda_core.model.laws.time_functions import initial, time_function
-from lambda_core.model.ledger import Ledger, Status
+from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_loads import (
     Held,
     as_outer_ring,
@@ -316,7 +317,7 @@ def roller_geometry(
     values = {name: _pick(rollers, row, name, ledger) for name in (*_NEEDED[1:], "roller_length", "contact_angle")}
     values["rib_height"] = _pick(rollers, row, "rib_height", ledger)
     is_given = "rib_roughness" in rollers.model_fields_set
-    origin: tuple[str, Status] = ("case", "given") if is_given else (_ROUGHNESS, "default")
+    origin: tuple[str, ValueStatus] = ("case", "given") if is_given else (_ROUGHNESS, "default")
     ledger.record("bearing.rollers.rib_roughness", rollers.rib_roughness, "small_length", *origin)
     kind = rollers.kind or (row.kind if row else None)
     missing = [name for name in _NEEDED[1:] if values[name] is None] + ([] if kind else ["kind"])
@@ -404,7 +405,7 @@ def _pick(rollers: InlineRollers, row: RollerRow | None, name: str, ledger: Ledg
     if value is None:
         return None
     ledger.row(f"bearing.rollers.{name}", value, _QUANTITIES.get(name, "length"), silent=True)
-    if value.status != "published" and name == "roller_count":
+    if value.status in ESTIMATED and name == "roller_count":
         ledger.assume(f"rollers of the catalogue, grade {value.grade}: {value.source}")
     return value.value
 
@@ -484,7 +485,7 @@ def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger:
     low, high = limits
     pick = case.bearing.clearance_pick
     clearance = {"minimum": low, "middle": 0.5 * (low + high), "maximum": high}[pick]
-    status: Status = "given" if case.bearing.clearance or (found and found.clearance) else "assumed"
+    status: ValueStatus = "given" if case.bearing.clearance or (found and found.clearance) else "assumed"
     ledger.record("bearing.clearance", clearance, "small_length", f"{pick} of {text}: {_CLASSES}", status)
     return clearance
 

@@ -41,7 +41,7 @@ BAD_BEARINGS = [
     (DESIGN | {"groove_radius_inner": "5.9 mm", "groove_radius_outer": "6.3 mm"}, "larger than the ball's radius"),
     ({"shoulder_diameter_inner": "70 mm", "shoulder_diameter_outer": "50 mm"}, "inner shoulder < outer shoulder"),
     ({"grade": "Z"}, "dimensions_grade must be one of A, A-, B, B-, C, D"),
-    (DESIGN | {"geometry_status": "guessed"}, "geometry_status must be one of published, derived, assumed"),
+    (DESIGN | {"geometry_status": "guessed"}, "geometry_status must be one of published, measured, derived, assumed"),
     ({"designation": " "}, "designation: a value is required"),
     ({"maker": None}, "maker: a value is required"),
     ({"bore_diameter": "40 kg"}, "kg is not a unit of length"),

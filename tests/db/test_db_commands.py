@@ -112,7 +112,7 @@ def test_show_lubricant(capsys: pytest.CaptureFixture[str]) -> None:
     assert ambient["viscosity_mPas"] == pytest.approx(97.3, abs=0.05)
     assert pressed["permittivity"] == pytest.approx(2.51, abs=0.005)
     assert shown["table"]["coefficients"][0]["alpha_tangent_per_GPa"] == pytest.approx(20.4, abs=0.05)
-    assert {"role", "model", "name", "value", "unit", "source", "grade"} == set(shown["parameters"][0])
+    assert {"role", "model", "name", "value", "unit", "source", "grade", "status"} == set(shown["parameters"][0])
     code, out, _ = run(capsys, "db", "show", "FVA3A")
     assert code == 0
     assert "proxy" in out

@@ -14,13 +14,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from lambda_cli.main import main
 from lambda_db import overlay, user
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row, export_rows, rows_of
 from sqlalchemy.exc import OperationalError
 
+from lambda_core import api
 from lambda_core.domain.errors import CatalogueError
+from lambda_core.model.bearing_model import BearingModel
 
 if TYPE_CHECKING:
     from conftest import Meanwhile
@@ -84,6 +87,56 @@ def test_an_own_set_of_parameters_replaces_the_complete_set(catalogue: SqlCatalo
     add_row(catalogue, "lubricant_parameter", cells | {"value": 8, "unit": "MPa", "source": "own test", "grade": "B"})
     own = catalogue.lubricant("FVA3").parameters["traction"]["ree-eyring"]
     assert {name: p.value for name, p in own.items()} == {"tau_eyring": 8.0}
+
+
+MEASURED = {
+    "lubricant": "FVA3",
+    "role": "traction",
+    "model": "ree-eyring",
+    "name": "tau_eyring",
+    "value": 8,
+    "unit": "MPa",
+    "source": "own test",
+    "grade": "B",
+    "status": "measured",
+}
+
+
+def test_a_value_of_ones_own_is_a_measured_one(catalogue: SqlCatalogue, capsys: pytest.CaptureFixture[str]) -> None:
+    """Keep the status in catalogue, case and results."""
+    add_row(catalogue, "bearing", ROW | {"status": "measured", "mass": "0.4 kg", "dynamic_rating": "33 kN"})
+    add_row(catalogue, "lubricant_parameter", MEASURED)
+    rating = catalogue.bearing("6208", "NSK").dynamic_rating
+    assert rating is not None
+    assert rating.status == "measured"
+    catalogue.close()
+    model = api.check("6208-axial-1300", ["lubricant.name=FVA3"])
+    assert isinstance(model, BearingModel)
+    (stress,) = [one for one in model.values if one.path == "forces.ball_inner.parameters.traction.tau_eyring"]
+    assert (stress.value, stress.status) == ("8 MPa", "measured")
+    assert "own test, measured, grade B" in stress.source
+    assert main(["db", "show", "FVA3"]) == 0
+    assert "measured  B      own test" in capsys.readouterr().out
+
+
+def test_a_catalogue_without_measured_values_takes_them(
+    catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Migrate version 7 without renewing its seal."""
+    add_row(catalogue, "lubricant_parameter", {**MEASURED, "status": None})
+    catalogue.close()
+    with sqlite3.connect(user_database()) as connection:
+        columns = "lubricant, role, model, name, value, unit, source, grade"
+        connection.execute(f"CREATE TABLE older AS SELECT {columns} FROM lubricant_parameter")
+        connection.execute("DROP TABLE lubricant_parameter")
+        connection.execute("ALTER TABLE older RENAME TO lubricant_parameter")
+        connection.execute("PRAGMA user_version = 7")
+    again = open_catalogue()
+    assert again.lubricant("FVA3").parameters["traction"]["ree-eyring"]["tau_eyring"].status is None
+    add_row(again, "lubricant_parameter", MEASURED, replace=True)
+    assert again.lubricant("FVA3").parameters["traction"]["ree-eyring"]["tau_eyring"].status == "measured"
+    again.close()
+    assert not caplog.text
 
 
 def test_sql_in_a_name_stays_a_name(catalogue: SqlCatalogue) -> None:

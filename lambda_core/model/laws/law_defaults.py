@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from lambda_core.domain.value_status import ValueStatus
 from lambda_core.model.bearing_model import ChosenLaw
-from lambda_core.model.ledger import Ledger, Status
+from lambda_core.model.ledger import Ledger
 
+MEASURED = ", measured, grade "  # what the origin of a measured value of the oil contains
 _WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 
 
@@ -32,14 +34,17 @@ def law_sentences(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> list[str]:
     return found
 
 
-def record_law(ledger: Ledger, element: str, role: str, law: ChosenLaw, chosen_by: Status) -> None:
+def record_law(ledger: Ledger, element: str, role: str, law: ChosenLaw, chosen_by: ValueStatus) -> None:
     """Record a law and its parameters with their origins."""
     source = law.model.distribution or "built-in"
     ledger.record(f"forces.{element}.models.{role}", law.model.name, "", source, chosen_by)
     for key, value in law.parameters.model_dump(mode="json").items():
         origin = law.origins[key]
-        weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
-        status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
+        status: ValueStatus = "assumed" if origin.endswith(_WEAK) else "published"
+        if origin in ("case", "default"):
+            status = "given" if origin == "case" else "default"
+        elif MEASURED in origin:
+            status = "measured"
         plain: float | str = value if isinstance(value, int | float | str) else str(value)
         ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
 

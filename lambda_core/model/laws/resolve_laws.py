@@ -19,12 +19,13 @@ from lambda_core.domain.installed import OWN
 from lambda_core.domain.lubrication import MIXTURES
 from lambda_core.domain.plugin_errors import describe
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
+from lambda_core.domain.value_status import ValueStatus
 from lambda_core.laws.law import Law
 from lambda_core.laws.parameter import kind_defaults
 from lambda_core.model.bearing_model import ChosenLaw
-from lambda_core.model.laws.law_defaults import law_sentences, record_law, short
+from lambda_core.model.laws.law_defaults import MEASURED, law_sentences, record_law, short
 from lambda_core.model.laws.law_packages import law_called
-from lambda_core.model.ledger import Ledger, Status
+from lambda_core.model.ledger import Ledger
 
 NONE = "none"
 BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
@@ -168,7 +169,8 @@ class LawResolver:
             if key in case_texts:
                 origins[key] = "case"
             elif key in rows and self.lubricant:
-                origins[key] = f"lubricant {self.lubricant.name} ({rows[key].source}, grade {rows[key].grade})"
+                grade = MEASURED if rows[key].status == "measured" else ", grade "
+                origins[key] = f"lubricant {self.lubricant.name} ({rows[key].source}{grade}{rows[key].grade})"
             else:
                 origins[key] = "default"
         return ChosenLaw(chosen, parameters, origins)
@@ -226,7 +228,7 @@ class LawResolver:
             return self._default(role), where
         return (self._automatic(role) if name == "auto" and role == "rheology" else name), where
 
-    def _chosen_by(self, element: str, role: str) -> Status:
+    def _chosen_by(self, element: str, role: str) -> ValueStatus:
         """Tell whether the case chooses this model.
 
         It names this model, or names none and gets the one that fits.
