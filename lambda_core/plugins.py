@@ -9,7 +9,7 @@ from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
 from lambda_core.elements.roller.line_film import dowson_toyoda_film, inlet_heat_rolling, moes_line_film
 from lambda_core.elements.roller.roller_drag import bath_drag_terms
-from lambda_core.elements.roller.rolling import rolling_force
+from lambda_core.elements.roller.rolling import rolling_force, rolling_regime
 from lambda_core.elements.roller.rolling_fits import (
     aihara_rolling_force,
     matsuyama_rolling_force,
@@ -109,5 +109,6 @@ __all__ = [
     "parameter",
     "power",
     "rolling_force",
+    "rolling_regime",
     "zhou_hoeprich_rolling_force",
 ]

@@ -21,14 +21,15 @@ from lambda_core.plugins import (
     law,
     matsuyama_rolling_force,
     moes_line_film,
-    rolling_force,
+    power,
+    rolling_regime,
     zhou_hoeprich_rolling_force,
 )
 from lambda_plugins.damping import Onset, SqueezeFilm, prepare_cubic
 from lambda_plugins.elastic_hysteresis import LossFactor
 from lambda_plugins.film_thickness import FilmFloors, Floors
 from lambda_plugins.film_thickness import prepare as prepare_floors
-from lambda_plugins.rolling_resistance import InletShear, regular_speed
+from lambda_plugins.rolling_resistance import InletShear, regular_speed, thermal_factor
 from lambda_plugins.shapes import at_least, at_most
 
 _STEEL = 2.0 / (2.0 * (1.0 - 0.3**2) / 206e9)  # E' of the steel bodies behind the constant of ISO 16281 [Pa]
@@ -67,7 +68,7 @@ def iso_line(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParamete
     out[2] = 0.0
     out[3] = 0.0
     if not delta <= 0.0:  # NaN goes through
-        load = _ONE_RACEWAY * E_eff / _STEEL * R_y ** (8.0 / 9.0) * delta ** (10.0 / 9.0)
+        load = _ONE_RACEWAY * E_eff / _STEEL * delta * power(R_y**8 * delta, 1.0 / 9.0)
         out[0] = load
         out[2], out[3] = hertz_line(load / R_y, R_x, E_eff)
     return OK
@@ -219,11 +220,11 @@ def biboulet_houpert_line(
 
     :func:`rolling_force` times the length, on each surface, in proportion to the speed near rest.
     """
-    out[0] = 0.0
-    if not load <= 0.0:  # NaN goes through
-        speed = regular_speed(u_mean, par.speed_floor)
-        heat = inlet_heat_rolling(speed, eta0, beta, k_oil, par.thermal_coefficient)
-        out[0] = rolling_force(load / R_y, R_x, speed, eta0, E_eff) * R_y * heat * abs(u_mean) / speed
+    speed = regular_speed(u_mean, par.speed_floor)
+    heat = thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil)
+    flooded, regime = rolling_regime(at_least(load, 0.0) / R_y, R_x, speed, eta0, E_eff)
+    # no branch and the library's power: slices take the same way through the kernel, several at once
+    out[0] = flooded * power(regime, -0.1) * R_y * heat * abs(u_mean) / speed
     return OK
 
 

@@ -68,11 +68,27 @@ def rolling_force(
     e_eff : float
         E' [Pa].
     """
+    flooded, regime = rolling_regime(line_load, radius, speed, viscosity, e_eff)
+    return flooded * regime**-0.1
+
+
+def rolling_regime(
+    line_load: FloatArray | float,
+    radius: FloatArray | float,
+    speed: FloatArray | float,
+    viscosity: float,
+    e_eff: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Return both factors of :func:`rolling_force`.
+
+    They are the force of rigid surfaces per length [N/m] and 1 + (0.966 sqrt(M))^10, whose power -0.1 multiplies it:
+    compiled laws take that power for several slices at once. Arguments as for :func:`rolling_force`.
+    """
     stiffness = e_eff * radius
     load = line_load / stiffness
     flow = 2.0 * viscosity * speed / stiffness
     regime = load / np.sqrt(flow)
-    return stiffness * 1.42 * np.sqrt(flow * load) / (1.0 + (0.966 * np.sqrt(regime)) ** 10) ** 0.1
+    return stiffness * 1.42 * np.sqrt(flow * load), 1.0 + (0.966 * np.sqrt(regime)) ** 10
 
 
 def rolling_torque(force: FloatArray, speed: float, ring_speed: float) -> float:

@@ -30,12 +30,10 @@ SHARES = 0.5 * SHARES
 
 
 @helper
-def _station_state(roller, cage, j, row, share, bundle, g):
-    """Write a station's state in its pocket.
+def _pocket_axes(roller, cage, j, row, g):
+    """Write a pocket's axes; return what its stations share.
 
-    It is place and velocity of a station of the roller's axis, along the pocket's axes.
-
-    `share` is where the station is, -1..1 of half of the length of a bar.
+    They are the middle of the pocket, the roller's middle and velocity, its axis, and the spins of roller and cage.
     """
     axis, omega = turning_body(cage)
     write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
@@ -45,16 +43,29 @@ def _station_state(roller, cage, j, row, share, bundle, g):
     across = combine((-lean, flat, 0.0), g.axial, g.radial, g.tangential)
     store(g.axial, along)
     store(g.radial, across)
-    c, s, x = math.cos(roller.azimuth), math.sin(roller.azimuth), 0.5 * share * row.bar_length
-    store(g.origin, add(circle, scale(x, along)))
-    arm = inertial(scale(x, axis_of(roller, row)), c, s)
-    spin = inertial(from_own(roller.spin, row), c, s)
-    d = add(subtract((roller.x, roller.radius * c, roller.radius * s), cage.position), arm)
-    store(g.place, components(subtract(d, g.origin), g.axial, g.radial, g.tangential))
-    v = add(inertial(roller.velocity, c, s), cross(spin, arm))
-    v = subtract(subtract(v, cage.velocity), cross(omega, d))
-    store(g.velocity, components(v, g.axial, g.radial, g.tangential))
+    c, s = math.cos(roller.azimuth), math.sin(roller.azimuth)
+    middle = subtract((roller.x, roller.radius * c, roller.radius * s), cage.position)
+    own, spin = inertial(axis_of(roller, row), c, s), inertial(from_own(roller.spin, row), c, s)
     store(g.rotation, components(subtract(spin, omega), g.axial, g.radial, g.tangential))
+    return circle, middle, inertial(roller.velocity, c, s), own, spin, omega
+
+
+@helper
+def _station_state(shared, cage, j, row, share, bundle, g):
+    """Write a station's state in its pocket.
+
+    It is place and velocity of a station of the roller's axis, along the axes of _pocket_axes.
+
+    `share` is where the station is, -1..1 of half of the length of a bar.
+    """
+    circle, middle, velocity, own, spin, omega = shared
+    x = 0.5 * share * row.bar_length
+    arm = scale(x, own)
+    store(g.origin, add(circle, scale(x, g.axial)))
+    d = add(middle, arm)
+    store(g.place, components(subtract(d, g.origin), g.axial, g.radial, g.tangential))
+    v = subtract(subtract(add(velocity, cross(spin, arm)), cage.velocity), cross(omega, d))
+    store(g.velocity, components(v, g.axial, g.radial, g.tangential))
     if row.waves[1] > row.waves[0]:
         carry_pocket(row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, row, bundle, g)
 
@@ -88,8 +99,9 @@ def pocket_forces(roller, cage, j, row, bundle, on_roller, on_cage):
     bends = row.waves[1] > row.waves[0]
     if bends:
         scratch.pushes[0, :] = 0.0
+    shared = _pocket_axes(roller, cage, j, row, g)
     for i in range(STATIONS.size):
-        _station_state(roller, cage, j, row, STATIONS[i], bundle, g)
+        _station_state(shared, cage, j, row, STATIONS[i], bundle, g)
         if guide_force(law, par, g, viscosity, out, scratch.fault, -1) != 1:
             scratch.fault.ball = j
             return -1.0
@@ -110,8 +122,9 @@ def pocket_energy(roller, cage, j, row, bundle):
     """
     scratch, total = bundle.scratch[0], 0.0
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
+    shared = _pocket_axes(roller, cage, j, row, scratch.guide)
     for i in range(STATIONS.size):
-        _station_state(roller, cage, j, row, STATIONS[i], bundle, scratch.guide)
+        _station_state(shared, cage, j, row, STATIONS[i], bundle, scratch.guide)
         found = guide_energy(law, par, scratch.guide, row.oil.viscosity, scratch.out[:], scratch.at_rest, 0.0)
         total += SHARES[i] * found
     return total
