@@ -44,15 +44,22 @@ class InlineRollers(Section):
         reference="Wingertszahn et al. 2023, Lubricants 11, 369",
         gt=0.0,
     )
-    profile: Literal["iso", "logarithmic", "none"] | None = option(
+    profile: Literal["iso", "logarithmic", "crowned", "two-radii", "tabulated", "none"] | None = option(
         None,
-        'profile of the rollers: "iso" (ISO 16281), "logarithmic" (scale and length below) or "none"; absent: the '
-        "catalogue's, else iso",
+        'profile of the rollers: "iso" (ISO 16281), "logarithmic", "crowned", "two-radii", "tabulated" (by the options '
+        'below) or "none"; absent: the catalogue\'s, else iso',
     )
     profile_scale: float | None = option(
         None, "scale of the logarithmic profile over the roller diameter", gt=0.0, lt=0.01, reference="Teutsch 2005"
     )
-    profile_length: Length | None = option(None, "length of the logarithmic profile", gt=0.0)
+    profile_length: Length | None = option(
+        None, "length of the logarithmic profile; of two-radii: length of the middle", gt=0.0
+    )
+    profile_radius: Length | None = option(None, "radius of the crown; of two-radii: of both ends", gt=0.0)
+    profile_middle_radius: Length | None = option(None, "of two-radii: radius of the middle; absent: straight", gt=0.0)
+    profile_points: list[tuple[Length, SmallLength]] | None = option(
+        None, 'of tabulated: distance from the middle and drop, [["0 mm", "0 um"], ["5.5 mm", "8 um"]]'
+    )
     slices: int = option(
         SLICES,
         "laminae of a contact at an operating point; in motion 32",

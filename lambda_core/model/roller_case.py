@@ -42,6 +42,7 @@ from lambda_core.model.bodies.resolve_materials import (
 )
 from lambda_core.model.checks.oil_table import OilLaw, oil_state
 from lambda_core.model.checks.operating_limits import speed_warning
+from lambda_core.model.geometry.roller_profile import profile_of
 from lambda_core.model.laws.law_context import effective_modulus
 from lambda_core.model.laws.roller_dielectric import dielectric_of_case
 from lambda_core.model.laws.roller_laws import friction_of_case
@@ -312,6 +313,8 @@ def roller_geometry(
 
     The case's values come first, then the catalogue's; None follows a problem.
     """
+    if found is None and any(problem.where.startswith("bearing.") for problem in ledger.problems):
+        return None  # a wrong designation: what follows from it is not missing
     rollers, row = case.bearing.rollers or InlineRollers(), found.row if found else None
     boundary = _boundary(case, row, ledger)
     values = {name: _pick(rollers, row, name, ledger) for name in (*_NEEDED[1:], "roller_length", "contact_angle")}
@@ -367,7 +370,7 @@ def roller_geometry(
             caged=case.depth.cage,
             moduli=(effective_modulus(roller, inner), effective_modulus(roller, outer)),
             density=roller.density,
-            **_profile(rollers, row, number["roller_diameter"], ledger),
+            **profile_of(rollers, row, number["roller_diameter"], number["effective_length"], ledger),
         )
     except ValueError as error:
         ledger.problem("bearing.rollers", str(error).replace("`", ""))
@@ -445,24 +448,6 @@ def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: L
     if row is not None and row.fatigue_limit is not None:
         return float(dynamic), float(static), row.fatigue_limit.value
     return float(dynamic), float(static), roller_fatigue_load_limit(float(static), shape["pitch_diameter"])
-
-
-def _profile(rollers: InlineRollers, row: RollerRow | None, diameter: float, ledger: Ledger) -> dict[str, Any]:
-    """Return the profile's options.
-
-    They come from the case, otherwise from the catalogue, otherwise from ISO 16281.
-    """
-    scale = rollers.profile_scale or (row.profile_scale.value if row and row.profile_scale else None)
-    length = rollers.profile_length or (row.profile_length.value if row and row.profile_length else None)
-    name = rollers.profile or ("logarithmic" if scale and length else "iso")
-    if name == "logarithmic":
-        if not (scale and length):
-            ledger.problem("bearing.rollers.profile", "logarithmic needs profile_scale and profile_length")
-            return {}
-        return {"profile": name, "profile_scale": scale * diameter, "profile_length": length}
-    if rollers.profile is None:
-        ledger.assume("profile of the rollers after ISO 16281: none is given")
-    return {"profile": name}
 
 
 def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger: Ledger) -> float:

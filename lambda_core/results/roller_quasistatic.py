@@ -11,6 +11,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, SolverError
+from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import show
 from lambda_core.elements.roller.axial_limit import AxialLimit, axial_limit
 from lambda_core.elements.roller.roller_bearing import RollerBearing, kind_words
@@ -40,7 +41,7 @@ from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStati
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.ring_shape import ring_shape
 from lambda_core.results.summary import capacitance_note
-from lambda_core.results.verdict import limits_of
+from lambda_core.results.verdict import Limits, limits_of
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -163,14 +164,15 @@ def roller_statics(
     films = [film[carries(loads[ring].sum(axis=1))] for ring, film in found.contact_film.items()]
     carrying = np.concatenate(films) if turning else np.zeros(0)
     radial, axial = state.carried
-    limit = _limit(model, radial, motion)
+    limit = _limit(bearing, model.lubrication, radial, motion.relative)
     least = finite(min(found.film_parameter.values(), default=math.nan))
     inner, outer = (float(load.sum(axis=1).max()) for load in loads.values())
     pressure = 1e-9 * max(_pressure(bearing, one) for one in solved.states)
     rating = roller_rating(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination)
     told = _warnings(model, state, axial, limit)
     if moving is not None:
-        rating = rating.model_copy(update={"limits": limits_of(moving)})
+        limits = limits_of_rollers(moving, bearing, (radial, axial), motion.relative)
+        rating = rating.model_copy(update={"limits": limits})
         told = list(dict.fromkeys([*told, *operating_warnings(moving, on_shaft=on_shaft)]))
     return {
         "title": model.title,
@@ -359,25 +361,41 @@ def _equivalent_load(bearing: RollerBearing, radial: float, axial: float) -> flo
     return roller_equivalent_load(radial, thrust, bearing.contact_angle).load
 
 
-def _limit(model: RollerModel, radial: float, motion: RollerMotion) -> AxialLimit | None:
+def _limit(bearing: RollerBearing, lubrication: Lubrication, radial: float, speed: float) -> AxialLimit | None:
     """Return the permissible axial loads of rollers.
 
     Only cylindrical rollers between ribs have them; other kinds, and rollers at rest, have none.
     """
-    bearing = model.bearing
-    if bearing.kind not in ("NJ", "NUP", "NCF") or motion.relative == 0.0:
+    if bearing.kind not in ("NJ", "NUP", "NCF") or speed == 0.0:
         return None
     return axial_limit(
         radial,
-        motion.relative,
+        speed,
         bore=bearing.bore,
         outside=bearing.outside,
         width=bearing.width,
         static_rating=bearing.static_rating,
         light_series=bearing.series == "2",
         complement="full" if bearing.full_complement else "cage",
-        oil=model.lubrication != "grease",
+        oil=lubrication != "grease",
     )
+
+
+def limits_of_rollers(model: BearingModel, bearing: RollerBearing, load: tuple[float, float], speed: float) -> Limits:
+    """Return what a roller bearing has to keep to.
+
+    Parameters
+    ----------
+    load : tuple of float
+        Radial and axial [N].
+    speed : float
+        Of the inner ring against the outer [rad/s].
+    """
+    radial, axial = load
+    limit = _limit(bearing, model.lubrication, radial, speed)
+    if limit is None or axial == 0.0:
+        return limits_of(model)
+    return limits_of(model).model_copy(update={"axial_load_N": axial, "largest_axial_load_N": limit.continuous})
 
 
 def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoad]:

@@ -92,6 +92,8 @@ class Limits(Record):
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
     minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest, preloaded, of rollers")
     largest_load_N: float | None = Field(description="C/2 of ISO 281; null at rest")
+    axial_load_N: float | None = Field(description="on ribs of cylindrical rollers; null without", default=None)
+    largest_axial_load_N: float | None = Field(description="permissible constant load of these ribs", default=None)
     pressure_GPa: float = Field(description="where steel yields (ISO 76)")
     tilt_mrad: float = Field(description="that bearings of this kind take")
     oil_degC: float
@@ -185,6 +187,11 @@ def _general(limits: Limits, found: Found) -> Iterator[Margin]:
         yield _margin("load", load, limits.minimum_load_N, "N", "at least", basis, required=False)
     if load is not None and limits.largest_load_N is not None:
         yield _margin("P", load, limits.largest_load_N, "N", "at most", "ISO 281: C/2", required=False)
+    if limits.axial_load_N is not None and limits.largest_axial_load_N is not None:
+        basis = "SKF: axial load of ribs"
+        yield _margin(
+            "axial load", limits.axial_load_N, limits.largest_axial_load_N, "N", "at most", basis, required=False
+        )
     if found.pressure_GPa is not None:
         yield _margin("p", found.pressure_GPa, limits.pressure_GPa, "GPa", "at most", "ISO 76", required=False)
     if found.static_safety is not None and limits.required_static_safety is None:

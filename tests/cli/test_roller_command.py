@@ -95,9 +95,15 @@ def test_the_text_names_shares_and_lives(tmp_path: Path, capsys: pytest.CaptureF
         assert words in out
 
 
-def test_too_much_thrust_is_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_too_much_thrust_is_a_warning_and_not_within_limits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["quasistatic", case(tmp_path, "NJ 208", "3 kN")]) == 0
-    assert "above the permissible" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "above the permissible" in out
+    assert "NOT MET: axial load 229 % of 1 308 N" in out
+    assert main(["quasistatic", case(tmp_path, "NJ 208", "1 kN"), "--json"]) == 0
+    margins = {margin["name"]: margin for margin in json.loads(capsys.readouterr().out)["verdict"]["margins"]}
+    assert margins["axial load"]["met"]
+    assert margins["axial load"]["limit"] == pytest.approx(1308.0, rel=1e-3)
 
 
 def test_thrust_alone_has_no_radial_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -127,7 +133,8 @@ def test_a_speed_above_the_limiting_one_is_a_warning(
     ("designation", "axial", "more", "message"),
     [
         ("NU 208", "1 kN", "", "takes no thrust"),
-        ("NU 208-XYZ", "0 N", "", '"XYZ" is not a known suffix'),
+        ("NU 208-XYZ", "0 N", "", '1 error\n  bearing.designation    "XYZ" is not a known suffix'),
+        ("NU 208-XYZ", "0 N", '[bearing.rollers]\nend_play = "9 um"\n', '1 error\n  bearing.designation    "XYZ" is'),
         ("32216", "0 N", "", "needs thrust"),
         ("NU 208", "0 N", "[bearing.rollers]\nroller_count = 40\n", "do not fit"),
         ("NU 208", "0 N", '[bodies.inner_ring]\nx = "20 N/um"\n', "free or locked"),

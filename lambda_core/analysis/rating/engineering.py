@@ -105,7 +105,7 @@ def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
     They stand between the rings, at the places that these have in the equilibrium.
     """
     from lambda_core.elements.roller.roller_motion import rolling_motion
-    from lambda_core.results.roller_quasistatic import roller_rating
+    from lambda_core.results.roller_quasistatic import limits_of_rollers, roller_rating
 
     model, oil = found.context.model, found.context.oil
     radial, axial = bearing_load(model, equilibrium_state(found))
@@ -118,4 +118,5 @@ def _of_rollers(found: Equilibrium, rollers: RollerBearing) -> Rating:
     rating = roller_rating(
         rollers, state, (radial, axial), found.relative_speed, oil.viscosity / oil.density, model.contamination
     )
-    return rating.model_copy(update={"limits": limits_of(model)})
+    limits = limits_of_rollers(model, rollers, (radial, axial), found.relative_speed)
+    return rating.model_copy(update={"limits": limits})

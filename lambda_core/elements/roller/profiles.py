@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Literal
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 
 Profile = Callable[[FloatArray], FloatArray]
+Name = Literal["iso", "none", "logarithmic", "crowned", "two-radii", "tabulated"]
 
 # ISO 16281:2025, B.5 and B.6: drop scale over the roller diameter.
 _SHORT, _LONG, _TAPERED = 0.00035, 0.0005, 0.00045

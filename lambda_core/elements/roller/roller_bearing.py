@@ -110,10 +110,14 @@ class RollerBearing:
         Of the rib contact above the inner generatrix of tapered rollers [m]; 0: a third of the end's radius.
     end_radius : float
         Of the roller's end faces [m]; 0: 0.9 of the distance to the apex, or what the opening of the ribs asks for.
-    profile : {"iso", "none", "logarithmic"}
+    profile : {"iso", "none", "logarithmic", "crowned", "two-radii", "tabulated"}
         Of the roller.
     profile_scale, profile_length, profile_exponent : float
-        A, L and k of the logarithmic profile [m, m, -], Teutsch's a_p D, c_p and k_p.
+        A, L and k of the logarithmic profile [m, m, -], Teutsch's a_p D, c_p and k_p; of two radii L is the middle's.
+    profile_radius, profile_middle_radius : float
+        Of the crown or of both ends, and of the middle of two radii [m].
+    profile_points : tuple of (float, float)
+        Distance from the middle and drop [m], from zero to the end of the contact.
     rib_roughness : float
         Composite rms roughness of ribs and ends [m]: Wingertszahn et al. 2023, Lubricants 11, 369.
     faces : int
@@ -148,10 +152,13 @@ class RollerBearing:
     rib_height: float = 0.0
     contact_height: float = 0.0
     end_radius: float = 0.0
-    profile: Literal["iso", "none", "logarithmic"] = "iso"
+    profile: profiles.Name = "iso"
     profile_scale: float = 0.0
     profile_length: float = 0.0
     profile_exponent: float = 2.0
+    profile_radius: float = 0.0
+    profile_middle_radius: float = math.inf
+    profile_points: tuple[tuple[float, float], ...] = ()
     rib_roughness: float = 0.24e-6
     series: str = ""
     faces: int = 1
@@ -265,6 +272,13 @@ class RollerBearing:
         if self.profile == "logarithmic":
             length = max(self.profile_length, self.effective_length)
             return profiles.logarithmic(x, length, self.profile_scale, exponent=self.profile_exponent)
+        if self.profile == "crowned":
+            return profiles.crowned(x, self.profile_radius)
+        if self.profile == "two-radii":
+            return profiles.two_radii(x, self.profile_length, self.profile_middle_radius, self.profile_radius)
+        if self.profile == "tabulated":
+            places, drops = zip(*self.profile_points, strict=True)
+            return profiles.tabulated(np.abs(x), places, drops)
         if self.kind == "tapered":
             return profiles.iso_tapered(x, self.effective_length, self.diameter, self.angles.half)
         return profiles.iso_cylindrical(x, self.effective_length, self.diameter)

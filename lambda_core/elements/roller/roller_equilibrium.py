@@ -293,7 +293,7 @@ def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
     end = -1 if thrust > 0.0 else 1
     if {("inner", end), ("outer", -end)} <= rings:
         return ""
-    return f"a roller bearing of kind {bearing.kind} takes no thrust in this direction"
+    return f"a roller bearing of kind {bearing.kind} takes no thrust in this direction; NJ: along x, NUP: both"
 
 
 def takes_one_side(bearing: RollerBearing) -> bool:
