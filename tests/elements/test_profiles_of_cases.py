@@ -25,7 +25,7 @@ POINTS = [["0 mm", "0 um"], ["3 mm", "1 um"], ["5.5 mm", "8 um"]]
 
 
 def rollers(**options: Any) -> RollerBearing:
-    """Return the rollers of a case with options of the profile."""
+    """Return a case's rollers with options of the profile."""
     case = copy.deepcopy(CASE)
     case["bearing"]["rollers"] = options
     found = api.check(case).rollers
