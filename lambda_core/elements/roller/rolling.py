@@ -82,7 +82,12 @@ def rolling_regime(
     """Return both factors of :func:`rolling_force`.
 
     They are the force of rigid surfaces per length [N/m] and 1 + (0.966 sqrt(M))^10, whose power -0.1 multiplies it:
-    compiled laws take that power for several slices at once. Arguments as for :func:`rolling_force`.
+    compiled laws take that power for several slices at once (Biboulet and Houpert 2010, eq. 40-42).
+
+    Parameters
+    ----------
+    line_load, radius, speed, viscosity, e_eff
+        As for :func:`rolling_force`.
     """
     stiffness = e_eff * radius
     load = line_load / stiffness
