@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, given_range, varied
-from lambda_core.analysis.band.loaded import loaded_in
-from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
+from lambda_core.analysis.band.loaded import LoadedBearing, loaded_in
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     MEASURED,
@@ -26,8 +25,8 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
-from lambda_core.fitting.subjects import vocabulary
-from lambda_core.results.model_band import FIELDS
+from lambda_core.fitting.subjects import Subject, vocabulary
+from lambda_core.results.model_band import QUANTITIES
 from lambda_core.studies.job import point_model, shared_kernels
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ _PLACES = {
 }
 
 
-class MachineSubject:
+class MachineSubject(Subject):
     """A machine, or one of its bearings.
 
     Parameters
@@ -175,57 +174,27 @@ class MachineSubject:
             raise SolverError(f"the equilibrium has no {name}")
         return number
 
-    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return each quantity's relative standard deviation.
+    def loaded(self, changes: Sequence[str]) -> tuple[MachineModel, dict[str, LoadedBearing]]:
+        """Return the changed model and its loaded bearings."""
+        point = _solved(self.case_toml, tuple(changes))
+        return point.model, loaded_in(point.model, point.state)
 
-        The laws of the bearings decide it.
+    def size(self, changes: Sequence[str], name: str, sizes: Mapping[tuple[str, str], float]) -> float:
+        """Return the deviation of a column by those of bearings."""
+        (owner, measured), kind = self._readers[name], self.kind(name)
+        if owner or not kind:
+            return super().size(changes, name, sizes)
+        point = _solved(self.case_toml, tuple(changes))
+        each = {one: _number(point, one, measured.response) or 0.0 for one in point.model.bearing_models}
+        return sum(each[one] * sizes.get((one, kind), 0.0) for one in each) / sum(each.values())
 
-        Torques and losses of all bearings err together, as those of their laws do; how stiff and how loaded the machine
-        is counts as known.
-        """
-        point, found, own = _solved(self.case_toml, tuple(changes)), {}, tuple(fitted)
-        sizes: dict[tuple[str, str], float] = {}
-        loaded = loaded_in(point.model, point.state)
-        for one in point.model.bearings:
-            wanted = [name for name in names if self._readers[name][0] in ("", one.name)]
-            kinds = [kind for kind in _BANDED if any(name.endswith(kind) for name in wanted)]
-            if not kinds:
-                continue
-            prefix = f"bearings.{one.name}."
-            local = [path.removeprefix(prefix) for path in own]
-            without = [*local, *(f"bearing.{path}" for path in local)]
-            effects = effects_of(loaded[one.name], kinds, point.model.found_temperatures, without)
-            sizes |= {(one.name, kind): size for kind, size in deviations(effects, kinds).items()}
-        for name in names:
-            owner, measured = self._readers[name]
-            kind = next((kind for kind in _BANDED if name.endswith(kind)), "")
-            if owner:
-                found[name] = sizes.get((owner, kind), 0.0)
-            elif kind:
-                each = {one.name: _number(point, one.name, measured.response) or 0.0 for one in point.model.bearings}
-                found[name] = sum(each[one] * sizes.get((one, kind), 0.0) for one in each) / sum(each.values())
-        return found
+    def owner(self, name: str) -> str:
+        """Return the bearing that a quantity is that of."""
+        return self._readers[name][0]
 
-    def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
-        """Return both ends of each quantity's model band.
-
-        Those of torques and losses of all bearings are added: they err together.
-        """
-        kinds = {name: next((kind for kind in FIELDS if name.endswith(kind)), "") for name in names}
-        wanted = sorted({kind for kind in kinds.values() if kind})
-        if not wanted:
-            return {}
-        point, found = _solved(self.case_toml, tuple(changes)), {}
-        each = bands_of(point.model, loaded_in(point.model, point.state), wanted).bearings
-        for name, kind in kinds.items():
-            owner, _ = self._readers[name]
-            bands = [band for one in ((owner,) if owner else each) for band in each[one].bands if band.quantity == kind]
-            if bands:
-                found[name] = [sum(band.low for band in bands), sum(band.high for band in bands)]
-        return found
-
-
-_BANDED = ("friction torque", "power loss", "minimum film", "capacitance")
+    def kind(self, name: str) -> str:
+        """Return the quantity of a bearing that a column means."""
+        return next((kind for kind in QUANTITIES if name.endswith(kind)), "")
 
 
 def _readers(names: Sequence[str], bearing: str | None) -> dict[str, tuple[str, Measured]]:

@@ -5,15 +5,16 @@ A subject is one bearing, a machine, or one bearing of a machine.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, varied
-from lambda_core.analysis.band.loaded import loaded_bearings
+from lambda_core.analysis.band.loaded import LoadedBearing, loaded_bearings
 from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
@@ -37,23 +38,37 @@ if TYPE_CHECKING:
 
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
+    from lambda_core.model.bearing_model import BearingModel
+    from lambda_core.model.machine_model import MachineModel
 
 
-class Subject(Protocol):
-    """A bearing or a machine that is fitted."""
+class Subject(ABC):
+    """A bearing or a machine that is fitted.
+
+    Attributes
+    ----------
+    name, title : str
+    words : Vocabulary
+    case_toml : str
+        Case, of which another process makes the same subject.
+    bearing : str or None
+        The one of a machine.
+    """
 
     name: str
     title: str
     words: Vocabulary
-    case_toml: str  # of which another process makes the same
-    bearing: str | None
+    case_toml: str
+    bearing: str | None = None
 
+    @abstractmethod
     def varied(self, specification: str) -> Graded:
         """Return the named parameter.
 
         The name is ``PATH`` or ``PATH=LOW..HIGH``; an unknown path raises a UsageError.
         """
 
+    @abstractmethod
     def values(
         self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
     ) -> FloatArray:
@@ -62,17 +77,71 @@ class Subject(Protocol):
         The shape is (positions of the balls, names).
         """
 
+    @abstractmethod
+    def loaded(self, changes: Sequence[str]) -> tuple[BearingModel | MachineModel, dict[str, LoadedBearing]]:
+        """Return the changed model and its loaded bearings."""
+
+    def owner(self, name: str) -> str:
+        """Return the bearing that a quantity is that of.
+
+        It is empty for one of the machine, and of a bearing that is alone.
+        """
+        del name
+        return ""
+
+    def kind(self, name: str) -> str:
+        """Return the quantity of a bearing that a column means.
+
+        It is empty where ranges and laws of bearings do not move it.
+        """
+        return name
+
     def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
         """Return each quantity's relative standard deviation.
 
-        It follows from the ranges of all that is not fitted.
+        It follows from the ranges of all that is not fitted. Torques and losses of all bearings of a machine err
+        together, as those of their laws do; how stiff and how loaded a machine is counts as known.
         """
+        (model, bearings), own = self.loaded(changes), tuple(fitted)
+        kinds, found = {name: self.kind(name) for name in names}, model.found_temperatures
+        sizes: dict[tuple[str, str], float] = {}
+        for bearing, one in bearings.items():
+            wanted = dict.fromkeys(kinds[name] for name in names if kinds[name] and self.owner(name) in ("", bearing))
+            if wanted:
+                local = [path.removeprefix(f"bearings.{bearing}.") for path in own]
+                effects = effects_of(one, list(wanted), found, [*local, *(f"bearing.{path}" for path in local)])
+                # what the temperatures of a machine do is known of all its bearings together only
+                moved = deviations(effects, list(wanted), None if bearing else found)
+                sizes |= {(bearing, kind): size for kind, size in moved.items()}
+        return {name: self.size(changes, name, sizes) for name in names}
+
+    def size(self, changes: Sequence[str], name: str, sizes: Mapping[tuple[str, str], float]) -> float:
+        """Return the deviation of a column by those of bearings.
+
+        `sizes` has them by bearing and quantity.
+        """
+        del changes
+        return sizes.get((self.owner(name), self.kind(name)), 0.0)
 
     def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
         """Return both ends of each quantity's model band.
 
-        Quantities without a band are left out.
+        Quantities without a band are left out. Those of torques and losses of all bearings of a machine are added: they
+        err together.
         """
+        kinds = {name: self.kind(name) for name in names}
+        wanted = list(dict.fromkeys(kind for kind in kinds.values() if kind))
+        if not wanted:
+            return {}
+        (model, bearings), found = self.loaded(changes), {}
+        each = bands_of(model, bearings, wanted).bearings
+        for name, kind in kinds.items():
+            owner = self.owner(name)
+            owners = (owner,) if owner in each else each
+            bands = [band for one in owners for band in each[one].bands if band.quantity == kind]
+            if bands:
+                found[name] = [sum(band.low for band in bands), sum(band.high for band in bands)]
+        return found
 
 
 def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | None = None) -> Subject:
@@ -93,7 +162,7 @@ def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | Non
     return subject if subject.model.rollers is None else RollerSubject(case)
 
 
-class BearingSubject:
+class BearingSubject(Subject):
     """One bearing."""
 
     def __init__(self, case: Case) -> None:
@@ -103,7 +172,6 @@ class BearingSubject:
 
         self.model = resolve(case, is_static=True)
         self.case_toml = standalone_toml(case)
-        self.bearing: str | None = None
         self._points = OperatingPoints(self.case_toml)
         self.name, self.title = self.model.name, self.model.title
         is_computed = case.operation.temperatures == "computed"
@@ -119,17 +187,10 @@ class BearingSubject:
         """Return predicted quantities at several positions of the balls."""
         return self._points.values(changes, parameters, names, one=one)
 
-    def deviations(self, changes: Sequence[str], names: Sequence[str], fitted: Iterable[str]) -> dict[str, float]:
-        """Return the relative standard deviation of each quantity."""
+    def loaded(self, changes: Sequence[str]) -> tuple[BearingModel, dict[str, LoadedBearing]]:
+        """Return the changed model and its bearing."""
         model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
-        (bearing,), found = loaded_bearings(model).values(), model.found_temperatures
-        return deviations(effects_of(bearing, names, found, fitted), names, found)
-
-    def bands(self, changes: Sequence[str], names: Sequence[str]) -> dict[str, list[float]]:
-        """Return both ends of each quantity's model band."""
-        model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
-        (found,) = bands_of(model, loaded_bearings(model), names).bearings.values()
-        return {one.quantity: [one.low, one.high] for one in found.bands}
+        return model, loaded_bearings(model)
 
 
 class RollerSubject(BearingSubject):
