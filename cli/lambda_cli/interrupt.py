@@ -15,7 +15,7 @@ import signal
 import socket
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from lambda_core.domain.processes import STOP_SIGNALS
@@ -25,15 +25,17 @@ _GRACE = 0.5  # [s] for the program's own way out, which is the better one
 
 
 @contextmanager
-def second_signal_ends(code: int) -> Iterator[None]:
+def second_signal_ends(code: int) -> Iterator[Callable[[], bool]]:
     """End the process soon after a second signal.
 
     The process gets this exit code `_GRACE` after the second signal, if it is still in here then.
 
-    Nothing is lost that was written: result files are good at any moment.
+    Nothing is lost that was written: result files are good at any moment. Inside, a function tells whether a first
+    signal came.
     """
+    first = threading.Event()
     if threading.current_thread() is not threading.main_thread():
-        yield
+        yield first.is_set
         return
     ours, theirs = socket.socketpair()
     theirs.setblocking(False)
@@ -58,9 +60,9 @@ def second_signal_ends(code: int) -> Iterator[None]:
 
     sys.unraisablehook = hear_again
     before = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
-    threading.Thread(target=_watch, args=(ours, left, code), name="signals", daemon=True).start()
+    threading.Thread(target=_watch, args=(ours, left, code, first), name="signals", daemon=True).start()
     try:
-        yield
+        yield lambda: first.wait(_SOON)  # the thread hears it a moment later
     finally:
         left.set()
         sys.unraisablehook = reported
@@ -69,7 +71,7 @@ def second_signal_ends(code: int) -> Iterator[None]:
         theirs.close()
 
 
-def _watch(ours: socket.socket, left: threading.Event, code: int) -> None:
+def _watch(ours: socket.socket, left: threading.Event, code: int, first: threading.Event) -> None:
     heard = 0
     with ours:
         while heard < 2:
@@ -77,6 +79,8 @@ def _watch(ours: socket.socket, left: threading.Event, code: int) -> None:
             if not numbers:
                 return
             heard += sum(number in STOP_SIGNALS for number in numbers)
+            if heard:
+                first.set()
     if not left.wait(_GRACE):
         with contextlib.suppress(OSError):
             os.write(2, b"interrupted: what was written is kept\n")

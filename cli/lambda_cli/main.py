@@ -11,7 +11,7 @@ import gc
 import inspect
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
 import typer
@@ -143,11 +143,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Command line without the program's name; default: that of the process.
     """
     os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes started from here import nothing from where they stand
-    with second_signal_ends(INTERRUPTED):
-        return _main(arguments)
+    with second_signal_ends(INTERRUPTED) as is_signalled:
+        return _main(arguments, is_signalled)
 
 
-def _main(arguments: Sequence[str] | None) -> int:
+def _main(arguments: Sequence[str] | None, is_signalled: Callable[[], bool]) -> int:
     try:
         failed = len(failures_so_far())
         outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
@@ -178,6 +178,9 @@ def _main(arguments: Sequence[str] | None) -> int:
         if isinstance(code := getattr(error, "exit_code", None), int) and hasattr(error, "format_message"):
             _say_usage(error)
             return code
+        if is_signalled():  # an interruption that a library turned into an error of its own
+            _say("interrupted")
+            return INTERRUPTED
         return _bug(error)
 
 

@@ -247,7 +247,7 @@ def fit(
     Returns
     -------
     Fit
-        Also after an interruption (Ctrl+C): then with the best values so far.
+        Also after an interruption (Ctrl+C): then with the best values so far; KeyboardInterrupt where there are none.
 
     Raises
     ------
@@ -261,7 +261,7 @@ def fit(
     """
     if data.values.size <= len(parameters):
         raise ValueError(
-            f"{data.values.size} measured values cannot determine {len(parameters)} parameters: "
+            f"{data.values.size} measured values for {len(parameters)} parameters are too few: "
             "vary fewer parameters or add operating points"
         )
     step = _STEP * np.maximum(np.abs(starts(parameters)), spreads(parameters) * 1e-3)
@@ -274,7 +274,8 @@ def fit(
             search.run(held)
         return search.outcome()
     except KeyboardInterrupt:
-        search.stop()
+        if not search.stop():
+            raise
     return search.outcome()
 
 
@@ -333,12 +334,13 @@ class _Search:
         kept = U.separable(self._weighted(range(len(self._parameters))), spread, U.NORMAL_FACTOR)
         return [index for index in range(len(self._parameters)) if index not in kept]
 
-    def stop(self) -> None:
-        """Take the best point so far."""
+    def stop(self) -> bool:
+        """Take the best point so far, if any."""
         self._interrupted = True
         cost, point = self._recorder.best
         if math.isfinite(cost):
             self._point = point
+        return self._recorder.knows(self._point)
 
     def outcome(self) -> Fit:
         """Put together what was found."""

@@ -42,6 +42,10 @@ class ModelCalls:
             self._values[key] = np.asarray(self._model(point), dtype=np.float64)
         return self._values[key]
 
+    def knows(self, point: FloatArray) -> bool:
+        """Tell whether the values at a point are known."""
+        return point.tobytes() in self._values
+
     def slopes(self, point: FloatArray) -> FloatArray:
         """Return the derivatives at a point."""
         key = point.tobytes()

@@ -181,6 +181,23 @@ def test_an_interruption_keeps_the_best_values_so_far() -> None:
     assert np.abs(found.predicted - true).sum() < 0.1 * np.abs(before - true).sum()
 
 
+def test_an_interruption_before_any_values_ends_at_once() -> None:
+    """Solve no further points after Ctrl+C.
+
+    The rest of the first pass over all rows was solved for values that were not fitted.
+    """
+    calls: list[FloatArray] = []
+
+    def model(values: FloatArray) -> FloatArray:
+        calls.append(values)
+        raise KeyboardInterrupt
+
+    true = S.torque(S.TRUTH, S.plan())
+    with pytest.raises(KeyboardInterrupt):
+        fit(model, S.PARAMETERS, Data(true, 0.01 * true))
+    assert len(calls) == 1
+
+
 def test_the_next_point_separates_what_the_data_do_not() -> None:
     """Propose another speed to separate two powers of it.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
@@ -10,12 +11,14 @@ import sys
 import time
 import tomllib
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
 import pytest
+from lambda_cli import main as command
 from lambda_cli import start
 from lambda_cli.interrupt import second_signal_ends
 from trust.answering import time_of
@@ -288,5 +291,31 @@ def test_c2_4_an_interruption_that_a_destructor_drops_is_heard_again() -> None:
     try:
         with pytest.raises(KeyboardInterrupt):
             work()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_an_interruption_that_a_library_turns_into_its_error_is_no_bug(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Answer Ctrl+C as such.
+
+    It came while compiled code read its arguments, which made a TypeError of it, and the command reported a bug.
+    """
+
+    def work(*, is_hit: bool = True, **options: object) -> None:
+        with contextlib.suppress(KeyboardInterrupt):
+            if is_hit:
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(1.0)
+        raise TypeError("missing 1 required positional argument")
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        monkeypatch.setattr(command, "application", work)
+        assert command.main([]) == 130
+        assert capsys.readouterr().err == "interrupted\n"
+        monkeypatch.setattr(command, "application", partial(work, is_hit=False))
+        assert command.main([]) == 1
     finally:
         signal.signal(signal.SIGINT, before)
