@@ -159,12 +159,13 @@ def _by_column(name: str, cells: Mapping[str, object]) -> tuple[dict[str, object
             problems.append(f'"{key}" is not a column of {name}{hint}')
         elif column in found:
             problems.append(f"{column} is given twice")
+            continue
         elif column != key and not isinstance(cell, str):
             problems.append(f'{key}: {cell} has no unit: write {column} = {cell} or {key} = "{cell} {_unit(column)}"')
         elif column != key and str(cell).strip().replace(".", "", 1).isdigit():
             problems.append(f'{key}: "{cell}" has no unit: write "{cell} {_unit(column)}"')
-        else:
-            found[column] = cell
+        if column is not None:
+            found[column] = cell  # a column without its unit is not missing, too
     return found, problems
 
 

@@ -136,6 +136,15 @@ class Study(Section):
     optimise: Goal | None = option(None, "what an optimisation is after")
     max_points: int = option(MAX_POINTS, "refuse more points than this", ge=1, le=MOST_POINTS)
 
+    @field_validator("set", mode="before")
+    @classmethod
+    def _is_flat(cls, written: Any) -> Any:
+        """Refuse tables in one sentence."""
+        for key, value in written.items() if isinstance(written, dict) else ():
+            if isinstance(value, dict | list):
+                raise ValueError(f'{key} is no single value: write a line for each option, as "loads.radial" = "2 kN"')
+        return written
+
     @model_validator(mode="after")
     def _fits(self) -> Study:
         paths = [parameter.path for parameter in self.parameters]

@@ -64,6 +64,12 @@ def test_bad_bearings(catalogue: SqlCatalogue, change: dict[str, object], reason
         catalogue.bearing("X1")
 
 
+def test_a_value_without_its_unit_is_not_missing_too(catalogue: SqlCatalogue) -> None:
+    with pytest.raises(CatalogueError) as error:
+        add_row(catalogue, "bearing", {**BEARING, "bore_diameter": 40, "width": "18"})
+    assert [one.message.partition(":")[0] for one in error.value.problems] == ["bore_diameter", "width"]
+
+
 def test_a_value_needs_its_source(catalogue: SqlCatalogue) -> None:
     cells = {k: v for k, v in BEARING.items() if k not in ("source", "grade")}
     cells |= {"dimensions_source": "test", "dimensions_grade": "B", "dynamic_rating": "29 kN"}

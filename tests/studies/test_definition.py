@@ -138,6 +138,12 @@ def test_parameters_without_sense_are_refused(parameters: list[str], words: str)
     assert words in " ".join(text.split())
 
 
+def test_a_table_among_fixed_changes_is_one_mistake() -> None:
+    with pytest.raises(CaseError, match="observers is no single value: write a line for each option") as caught:
+        plan(SPEED, tail="[set]\nobservers = { dose = { every = 1 } }")
+    assert len(caught.value.problems) == 1
+
+
 @pytest.mark.parametrize(
     ("tail", "words"),
     [
