@@ -30,7 +30,7 @@ def show(
 
     The run may be finished, still going on, or killed.
 
-    A machine shows its motion and a column for each bearing; --bearing shows one bearing in full. Several results
+    A machine shows its motion and a section for each bearing; --bearing shows one bearing alone. Several results
     show the differences of their cases and their key numbers in columns.
     """
     from lambda_core import api

@@ -342,7 +342,7 @@ class ResultsScreen(ExportScreen):
     def _summary(self, found: Summary, width: int) -> Text:
         """Lay out a summary.
 
-        That of a machine has a column for each bearing.
+        That of a machine has a section for each bearing.
         """
         if len(found.bearings) > 1:
             return Text(found.text(width, self._units))

@@ -131,7 +131,7 @@ def bearing_part(
 
     Parameters
     ----------
-    found : QuasiStatic, BearingEquilibrium, BearingSummary or Summary
+    found : QuasiStatic, BearingSummary or Summary
         Its numbers.
     geometry : mapping
         Of the resolved model, SI, with `rollers` where it has them.
@@ -143,7 +143,7 @@ def bearing_part(
     return BearingPart(
         name=name,
         title=found.title,
-        lines=tuple(units.sentence(getattr(found, "headline", "")).splitlines()),
+        lines=tuple(units.sentence(found.headline).splitlines()),
         verdict=units.sentence(verdict.sentence) if verdict is not None else "",
         is_met=verdict is None or verdict.met,
         margin_line="   ".join(verdict.lines(units)[1]) if verdict is not None else "",
@@ -203,7 +203,11 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
 
     parts = tuple(
         bearing_part(
-            one, _geometry(seat.model), name=one.name, loads=(one.radial_load_N, one.axial_load_N), units=units
+            found.of_bearing(one.name),
+            _geometry(seat.model),
+            name=one.name,
+            loads=(one.radial_load_N, one.axial_load_N),
+            units=units,
         )
         for one, seat in zip(found.bearings, model.bearings, strict=True)
     )

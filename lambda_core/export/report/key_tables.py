@@ -11,6 +11,7 @@ from lambda_core.domain.number_text import hours, hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
 from lambda_core.results.bearing_summary import BearingSummary
+from lambda_core.results.machine_numbers import total
 from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.quantity import quantities, quantity_of, remaining
 from lambda_core.results.text import PLACED
@@ -25,7 +26,6 @@ _ROWS = 1000  # of a study's table
 _NOTHING = 1e-9  # a number in the units of the interface below which there is nothing
 # Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
 _IN_PARTS = ("materials", "forces", "bodies")
-_CONTACT = "contacts that carry load"
 _UNKNOWN = ("–", "-", "")  # what is written for a value that does not exist
 _LEAST_PART = 5e-4  # of the friction torque that a mechanism has to have
 _LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
@@ -53,8 +53,7 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
     rating, torque = getattr(found, "rating", None), units.unit("N mm")
     width = getattr(found, "friction_torque_ci_Nmm", None)
     mean = units.plus_minus(found.friction_torque_Nmm, width, "N mm").removesuffix(torque)
-    name = "friction torque (95 %)" if width is not None else "friction torque"
-    rows = [(name, mean.strip(), torque)]
+    rows = [(f"friction torque{'' if width is None else ' (95 %)'}", mean.strip(), torque)]
     rows += _band(found, "friction_torque_Nmm", "N mm", "friction torque, 90 % model band", units)
     rows.append(_figure(found, "power_loss_W", units))
     rows += _band(found, "power_loss_W", "W", "power loss, 90 % model band", units)
@@ -65,7 +64,11 @@ def key_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]
     rows.append(
         _figure(found, "min_film_um", units)
         if film is not None
-        else ("smallest central film", rounded(_least(found.film_um, units)), units.unit("um"))
+        else (
+            "smallest central film",
+            rounded(units.value(min(found.film_um, default=math.nan), "um")),
+            units.unit("um"),
+        )
     )
     return _known([*rows, _figure(found, "max_pressure_GPa", units)])
 
@@ -79,11 +82,10 @@ def more_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str
             _figure(rating, "schaeffler_torque_Nmm", units),
             _figure(rating, "viscosity_ratio", units, "viscosity ratio kappa, ISO 281"),
         ]
-    lambdas = getattr(found, "film_parameter", [])
-    if lambdas:
-        rows.append(("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in lambdas), ""))
-    tilts = getattr(found, "inner_ring_tilt_mrad", None) or getattr(found, "misalignment_mrad", [])
-    rows.append(("tilt of the inner ring y, z", ", ".join(number(angle, 2) for angle in tilts), "mrad"))
+    if found.film_parameter:
+        label = quantity_of(found, "film_parameter").label
+        rows.append((label, "..".join(rounded(v, 2) for v in found.film_parameter), ""))
+    rows.append(_vector(found, "inner_ring_tilt_mrad", units))
     return _known([*rows, *(_remaining(found, units) if not isinstance(found, BearingSummary) else ())])
 
 
@@ -214,10 +216,8 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
     """
     each = found.bearings
     moving = [run.bearings[one.name] for one in each] if run is not None else each
-    total = run if run is not None else found
-    power = [one.power_loss_W for one in moving]
-    known = [value for value in power if value is not None]
-    all_power = getattr(total, "power_loss_W", sum(known) if len(known) == len(power) else None)
+    torque = (run if run is not None else found).friction_torque_Nmm
+    power = run.power_loss_W if run is not None else total(one.power_loss_W for one in each)
 
     def row(name: str, owners: Sequence[Any] = each, last: float | None = None) -> tuple[str, ...]:
         one = quantity_of(owners[0], name)
@@ -244,9 +244,9 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
         ),
         row("static_safety", [one.rating for one in each]),
         row("max_pressure_GPa", moving),
-        row("friction_torque_Nmm", moving, total.friction_torque_Nmm),
+        row("friction_torque_Nmm", moving, torque),
         *band("friction_torque_Nmm", "N mm", "torque"),
-        row("power_loss_W", moving, all_power),
+        row("power_loss_W", moving, power),
         *band("power_loss_W", "W", "loss"),
         (f"film {units.unit('um')}", *("..".join(rounded(units.value(v, "um"), 2) for v in one.film_um)
                                        for one in moving), ""),
@@ -286,20 +286,22 @@ def _figure(record: Any, name: str, units: UnitSystem, label: str = "") -> tuple
     return label or one.label, rounded(number, one.digits), units.unit(one.unit)
 
 
-def _least(values: Sequence[float], units: UnitSystem) -> float | None:
-    return units.value(min(values), "um") if values else None
+def _vector(record: Any, name: str, units: UnitSystem) -> tuple[str, str, str]:
+    """Return name, numbers and unit of a declared vector."""
+    one, axes = quantity_of(record, name), getattr(record, name)
+    numbers = (number(None if value is None else units.value(value, one.unit), one.decimals) for value in axes)
+    return f"{one.label} {', '.join(one.axes)}", ", ".join(numbers), units.unit(one.unit)
 
 
 def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
     """Return the remaining averages of a run."""
-    position = ", ".join(units.number(value, "um", 2) for value in summary.inner_ring_displacement_um)
     rows = (
         _figure(summary, "input_torque_Nmm", units),
         _figure(summary, "cage_speed_ratio", units),
         _figure(summary, "cage_speed_over_epicyclic", units),
         *_known([_figure(summary, "second_cage_speed_ratio", units)]),
         _figure(summary, "bearing_capacitance_nF", units),
-        ("inner ring x, y, z (mean)", position, units.unit("um")),
+        _vector(summary, "inner_ring_displacement_um", units),
         (*_figure(summary, "energy_residual", units)[:2], "of input"),
         (*_figure(summary, "iteration_residual", units)[:2], "of input"),
         *_remaining(summary, units),
@@ -382,7 +384,7 @@ def contacts(summary: Any, units: UnitSystem = SI, element: str = "ball") -> Tab
         for c in summary.contacts
         if c.load_N > _LEAST_LOAD * most
     )  # fmt: skip
-    return Table(_CONTACT, head, rows)
+    return Table("contacts that carry load", head, rows)
 
 
 def in_unit(name: str, value: Any, unit: str, units: UnitSystem) -> tuple[str, str, str]:
@@ -396,13 +398,14 @@ def in_unit(name: str, value: Any, unit: str, units: UnitSystem) -> tuple[str, s
 
 
 def convergence(summary: Any, units: UnitSystem = SI) -> Table:
+    label = {name: one.label for name, one in quantities(type(summary)).items()}
     rows = [
-        ("simulated time", written(summary.simulated_s), "s"),
+        (label["simulated_s"], written(summary.simulated_s), "s"),
         ("cage revolutions discarded", str(summary.revolutions_discarded), ""),
         ("cage revolutions averaged", str(summary.revolutions_averaged), ""),
-        in_unit("95 % half-width of the friction torque", summary.friction_torque_ci_Nmm, "N mm", units),
-        ("energy residual", written(summary.energy_residual), "of input"),
-        ("ends of Newton's iterations", written(summary.iteration_residual), "of input"),
+        in_unit(label["friction_torque_ci_Nmm"], summary.friction_torque_ci_Nmm, "N mm", units),
+        (label["energy_residual"], written(summary.energy_residual), "of input"),
+        (label["iteration_residual"], written(summary.iteration_residual), "of input"),
         ("wall time", written(summary.wall_s), "s"),
         *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
     ]
