@@ -88,7 +88,7 @@ class Printed:
         """Mean, standard deviation and limit of the filling angle [deg]."""
         if self.on_sphere:
             return (*SWIVELLED_ANGLE, SWIVELLED_LIMIT)
-        if self.kind == "double row":
+        if self.kind in kinds() and kinds()[self.kind].rows == 2:
             return (*FILLING_ANGLE, FILLING_LIMIT)
         if self.rows == 2:
             return (*SPLIT_ANGLE, SPLIT_LIMIT)

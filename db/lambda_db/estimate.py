@@ -94,7 +94,7 @@ def with_design(row: Row, design: RankedDesign, grade: str) -> Row:
     The sphere of a self-aligning bearing follows from pitch, contact angle and clearance: such a row has no raceways.
     """
     ball, pitch = design.ball_diameter, design.pitch_diameter
-    aligning = row["kind"] == "self-aligning"
+    aligning = row["kind"] in kinds() and kinds()[row["kind"]].on_sphere
     completed = row | {
         "ball_count": design.ball_count,
         "ball_diameter_mm": ball,

@@ -135,7 +135,8 @@ def _kinds_outside(tree: Tree) -> int:
     Their number outside the elements.
     """
     texts = tree.files("lambda_core", "db", "gui", "cli", "plugins/lambda_plugins")
-    kinds = r"four_point|self_aligning|SPHERICAL"
+    names = "deep groove|angular contact|four-point|double row|self-aligning|NU|NJ|NUP|NCF|tapered|needle"
+    kinds = rf'four_point|self_aligning|SPHERICAL|(?:[!=]=|\bin) \(?"(?:{names})"'
     return _with({name: text for name, text in texts.items() if "/elements/" not in name}, kinds)
 
 

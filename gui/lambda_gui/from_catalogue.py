@@ -47,7 +47,7 @@ def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue
     kinds = {suffix.kind for _, suffix in added}
     there = list(old.suffixes) if old is not None else []
     is_same = old is not None and old.base == row.designation
-    stays_on = () if row.kind == "angular contact" else ("clearance",)
+    stays_on = () if row.needs_thrust else ("clearance",)
     kept = [(w, s) for w, s in there if s.kind not in kinds and (is_same or s.kind in stays_on)]
     words = [word for word, _ in (*kept, *added)]
     stays = ", ".join(word for word, _ in kept)

@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict
 
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.domain.value_status import RowStatus
+from lambda_core.elements.ball.kinds import kinds
 
 
 class Frozen(BaseModel):
@@ -93,6 +94,11 @@ class BearingRow(Frozen):
     row_distance: Value | None = None  # between the planes of the balls of double row angular contact [m]
     candidates: tuple[Design, ...] = ()
     layer: Literal["core", "plugin", "user"] = "core"
+
+    @property
+    def needs_thrust(self) -> bool:
+        """Whether a radial load alone opens the bearing."""
+        return kinds()[self.kind].needs_thrust
 
 
 class RollerRow(Frozen):

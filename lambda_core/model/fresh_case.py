@@ -154,7 +154,7 @@ def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation)
     if axial and not classes:
         other = f'or axial_clearance = "{axial}"'
         return _told('clearance = "CN"', f"class of the axial clearance, {other}") + _PICK
-    if bearing.kind == "angular contact" and bearing.contact_angle is not None:
+    if bearing.needs_thrust and bearing.contact_angle is not None:
         angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
         return _told(f'# contact_angle = "{angle}"', "of the catalogue: the clearance follows from it")
     if classes:
@@ -175,7 +175,7 @@ def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
     least = kinds()[bearing.kind].least_thrust
     if least > 0.0:
         return max(machine.thrust, least), f"along the shaft: {least:g} of the radial load at least, SKF"
-    alone = bearing.kind == "angular contact" and bearing.contact_angle is not None
+    alone = bearing.needs_thrust and bearing.contact_angle is not None
     least = HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
     if least > machine.thrust:
         return 1.1 * least, "along the shaft; less opens a single angular contact bearing"

@@ -366,7 +366,7 @@ def _limit(bearing: RollerBearing, lubrication: Lubrication, radial: float, spee
 
     Only cylindrical rollers between ribs have them; other kinds, and rollers at rest, have none.
     """
-    if bearing.kind not in ("NJ", "NUP", "NCF") or speed == 0.0:
+    if not bearing.passes_thrust or speed == 0.0:
         return None
     return axial_limit(
         radial,

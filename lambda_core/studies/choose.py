@@ -242,7 +242,7 @@ class _Wanted:
         """
         if self.axial < kinds()[row.kind].least_thrust * self.radial:
             return f"need more axial load as {row.kind} bearings"
-        if row.kind == "angular contact" and row.contact_angle is not None:
+        if row.needs_thrust and row.contact_angle is not None:
             least = HALF_LOADED * math.tan(row.contact_angle.value) * self.radial
             if self.axial < least:
                 return "have angular contact and need more axial load or a second bearing"
@@ -257,7 +257,7 @@ class _Wanted:
         assert row.static_rating is not None
         of_kind = kinds()[row.kind]
         aligning, rows = of_kind.on_sphere, of_kind.rows * of_kind.arcs
-        angle = row.contact_angle.value if row.contact_angle is not None and row.kind != "deep groove" else 0.0
+        angle = row.contact_angle.value if row.contact_angle is not None and not of_kind.is_radial else 0.0
         dynamic, static = row.dynamic_rating.value, row.static_rating.value
         mean = 0.5 * (row.bore_diameter.value + row.outside_diameter.value)
         pitch = row.pitch_diameter.value if row.pitch_diameter is not None else mean
@@ -308,7 +308,8 @@ def _viscosity(
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.runs.api import quasistatic
 
-    known = [row for row in rows if row.kind == "deep groove" and row.pitch_diameter is not None and row.dynamic_rating]
+    radial = [row for row in rows if kinds()[row.kind].is_radial]
+    known = [row for row in radial if row.pitch_diameter is not None and row.dynamic_rating]
     if not known:
         return None
     row = max(known, key=lambda one: one.dynamic_rating.value if one.dynamic_rating else 0.0)

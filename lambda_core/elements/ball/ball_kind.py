@@ -159,3 +159,13 @@ class BallKind(BearingKind):
     thrust_words: str = ""
     axial_clearance: str = ""
     words: Callable[[Geometry, str], str] = angle_alone
+
+    @property
+    def is_radial(self) -> bool:
+        """True of one row in grooves that take thrust on either side."""
+        return self.rows * self.arcs == 1 and not (self.one_sided or self.on_sphere)
+
+    @property
+    def needs_thrust(self) -> bool:
+        """True of one row that a radial load alone would open."""
+        return self.one_sided and self.rows == 1

@@ -197,6 +197,11 @@ class RollerBearing:
         return family_of(self.kind)
 
     @property
+    def passes_thrust(self) -> bool:
+        """True where ribs of both rings press the rollers along x."""
+        return {("inner", -1), ("outer", 1)} <= {*RIBS[self.kind]}
+
+    @property
     def is_conical(self) -> bool:
         """True with tapered rollers."""
         return is_conical(self.kind)

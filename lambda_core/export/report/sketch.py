@@ -9,6 +9,7 @@ from typing import Any
 
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.elements.ball.kinds import kind_of
+from lambda_core.elements.roller.roller_bearing import kind_words
 
 _HEIGHT, _MARGIN = 300.0, 60.0  # of the section of a bearing [px]
 _WIDE, _ACROSS = 760.0, 120.0  # of a shaft: length, largest diameter [px]
@@ -136,7 +137,7 @@ def _words(geometry: Mapping[str, Any]) -> list[str]:
     if own := geometry.get("rollers"):
         angle, kind = float(own["contact_angle"]), str(own["kind"])
         return [
-            f"{kind if kind in ('needle', 'tapered') else f'cylindrical ({kind})'} roller bearing",
+            f"{kind_words(kind)} roller bearing",
             f"{int(own['count'])} rollers of {1e3 * float(own['diameter']):.4g} mm",
             f"{1e3 * float(own['length']):.4g} mm long",
             f"pitch circle {1e3 * float(own['pitch_diameter']):.4g} mm",
