@@ -97,7 +97,7 @@ class BearingRow(Frozen):
 
     @property
     def needs_thrust(self) -> bool:
-        """True where a radial load alone opens the bearing."""
+        """True where radial load alone opens the bearing."""
         return kinds()[self.kind].needs_thrust
 
 

@@ -162,10 +162,10 @@ class BallKind(BearingKind):
 
     @property
     def is_radial(self) -> bool:
-        """True of one row in grooves that take thrust on either side."""
+        """True of one row that takes thrust both ways."""
         return self.rows * self.arcs == 1 and not (self.one_sided or self.on_sphere)
 
     @property
     def needs_thrust(self) -> bool:
-        """True of one row that a radial load alone would open."""
+        """True of one row that radial load opens."""
         return self.one_sided and self.rows == 1

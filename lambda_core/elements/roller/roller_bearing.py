@@ -198,7 +198,7 @@ class RollerBearing:
 
     @property
     def passes_thrust(self) -> bool:
-        """True where ribs of both rings press the rollers along x."""
+        """True where ribs of both rings pass thrust on."""
         return {("inner", -1), ("outer", 1)} <= {*RIBS[self.kind]}
 
     @property
