@@ -49,6 +49,9 @@ def view_statement(table: str) -> str:
     )
 
 
+_told: set[tuple[Path, str]] = set()
+
+
 def attach_user(connection: Connection, path: Path, schema_version: int) -> bool:
     """Overlay the user's database.
 
@@ -83,7 +86,9 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
                 break
         else:
             return True
-    log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
+    if (path, trouble) not in _told:  # a command opens the catalogue several times
+        _told.add((path, trouble))
+        log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
     return False
 
 
