@@ -54,7 +54,7 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
         Called with a sentence before something is compiled.
     """
     start = time.perf_counter()
-    absent = missing((*UNITS, *OF_ROLLERS) if pack() is None else OF_ROLLERS)
+    absent = missing((*UNITS, *OF_ROLLERS)) if pack() is None else []
     begin(announce, UNITS, has_rollers=True)
     said: list[str] = []  # one sentence per law that was not on disk
 

@@ -106,9 +106,11 @@ def begin(
     announce, units
         As for :func:`lambda_core.solver.entry.begin`, of the units that every machine may need.
     has_rollers : bool
-        Whether those of rollers are needed, too.
+        Whether those of rollers are needed, too; a pack has them.
     """
-    needs_core = pack() is None and "" not in _loaded
+    packed = pack()
+    needs_core = packed is None and "" not in _loaded
+    has_rollers = has_rollers and packed is None
     if needs_core or has_rollers:
         from lambda_core.solver import entry
 
@@ -121,10 +123,11 @@ def roller_unit(compiled: Core, name: str) -> Unit:
 
     Their missing code is compiled by several processes.
     """
-    from lambda_core.solver import entry
+    if pack() is None:
+        from lambda_core.solver import entry
 
-    begin(has_rollers=True)
-    entry.wait()
+        begin(has_rollers=True)
+        entry.wait()
     return compiled.find(name)
 
 

@@ -85,8 +85,8 @@ def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
 
     The cache takes it; return its dispatcher.
     """
-    function, signature, sources = _unit(name)
-    return compile_host(function, signature, sources, announce, **_OPTIONS.get(name, {})).dispatcher
+    function, kind, sources = _unit(name)
+    return compile_host(function, kind, sources, announce, **_OPTIONS.get(name, {})).dispatcher
 
 
 def _unit(name: str) -> tuple[Any, Any, tuple[Path, ...]]:
@@ -99,6 +99,11 @@ def _unit(name: str) -> tuple[Any, Any, tuple[Path, ...]]:
     from lambda_core.solver.roller import units
 
     return (*units.UNITS[name], roller_sources())
+
+
+def signature(name: str) -> Any:
+    """Return a unit's signature."""
+    return _unit(name)[1]
 
 
 def build_group(names: str) -> None:
@@ -171,8 +176,8 @@ def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
     always the same, made by lambda_core.solver.drivers.solver_context.
     """
-    dispatcher, signature = build(name, announce), _unit(name)[1]
-    return dispatcher.get_compile_result(signature).entry_point, Pointer(dispatcher, signature)
+    dispatcher, kind = build(name, announce), signature(name)
+    return dispatcher.get_compile_result(kind).entry_point, Pointer(dispatcher, kind)
 
 
 _workers: list[subprocess.Popen[bytes]] = []

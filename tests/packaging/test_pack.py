@@ -50,6 +50,14 @@ def kernel(Lambda, par, out):
     return OK
 """
 
+ROLLERS = """
+name = "nu-208"
+bearing = { designation = "SKF NU 208 ECP" }
+lubricant = { name = "FVA3", temperature = "70 degC" }
+loads = { radial = "5 kN" }
+operation = { speed = "3000 rpm" }
+"""
+
 
 def call(*arguments: str, cwd: Path, **variables: str) -> subprocess.CompletedProcess[str]:
     """Run Python in another folder.
@@ -204,6 +212,24 @@ def test_a_wheel_runs_without_the_compiler_to_the_numbers_of_native_code(install
         found[code] = result["input_torque"]
     assert found["pack"].size > 1
     np.testing.assert_allclose(found["pack"], found["native"], rtol=1e-6)
+
+
+@LINUX
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_rollers_run_without_the_compiler_to_the_numbers_of_native_code(installed: Path, tmp_path: Path) -> None:
+    (tmp_path / "roller.toml").write_text(ROLLERS)
+    cache, powers = tmp_path / "cache", []
+    run = ["run", "roller.toml", "--duration", "0.5 ms", "--progress", "none", "--band", "none", "--out"]
+    for code, needs_numba, variables in (
+        ("pack", False, {"PYTHONPATH": str(installed), "LAMBDA_BEARING_CACHE": str(cache)}),
+        ("native", True, {"LAMBDA_BEARING_CODE": "native"}),
+    ):
+        done = call("-c", RUN, *run, f"{code}.h5", cwd=tmp_path, **variables)
+        assert done.stdout.splitlines()[-1] == f"5 {needs_numba}", done.stderr
+        powers.append(api.result(tmp_path / f"{code}.h5")["input_torque"])
+    assert not list(cache.rglob("*.nbc"))
+    np.testing.assert_allclose(*powers, rtol=1e-6)
 
 
 @LINUX

@@ -80,7 +80,7 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
     from lambda_core.laws.kernels import compile_kernel
     from lambda_core.solver import entry
 
-    entry.begin(announce, entry.UNITS)
+    entry.begin(announce, (*entry.UNITS, *entry.OF_ROLLERS))
     models = registry()
     said: dict[str, Any] = {}
     pointers: list[Any] = []
@@ -93,7 +93,8 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
             said[law_name(law)] = {"place": len(pointers), "kernel": kernel}
             pointers.append(compile_kernel(law).pointer)
     entry.wait()
-    for name, (_, signature) in entry.UNITS.items():
+    for name in (*entry.UNITS, *entry.OF_ROLLERS):
+        signature = entry.signature(name)
         said[name] = {"place": len(pointers), "kinds": _written(signature)}
         pointers.append(entry.call_and_pointer(name)[1])
     said["circuit"] = {"place": len(pointers), "kinds": _written(switching.integrate_sig)}
