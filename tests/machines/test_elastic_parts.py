@@ -68,7 +68,7 @@ def test_equilibrium_of_one_bearing(complete: MachineEngine) -> None:
     The friction of that bearing's balls moves it by 6e-5, elastic or rigid.
     """
     found: QuasiStatic = api.quasistatic(alone(outer_ring=SOFT))
-    pose = complete.start.state.pose(complete.machine, 0)
+    pose = complete.start.state.pose(complete.model, 0)
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
     rigid = copy.deepcopy(ONE)
     del rigid["bearings"]["only"]["elastic"]
@@ -83,7 +83,7 @@ def test_motion_of_one_bearing(complete: MachineEngine) -> None:
     Balls and waves to 1 % of the largest: the starts differ.
     """
     one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
-    engine = machine_engine(complete.machine)
+    engine = machine_engine(complete.model)
     assert one.advance(2e-3).ok
     assert engine.advance(2e-3).ok
     samples, other = engine.samples(), one.samples()
