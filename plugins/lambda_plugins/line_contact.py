@@ -224,7 +224,7 @@ def biboulet_houpert_line(
     heat = thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil)
     flooded, regime = rolling_regime(at_least(load, 0.0) / R_y, R_x, speed, eta0, E_eff)
     # no branch and the library's power: slices take the same way through the kernel, several at once
-    out[0] = flooded * power(regime, -0.1) * R_y * heat * abs(u_mean) / speed
+    out[0] = flooded * power(float(regime), -0.1) * R_y * heat * abs(u_mean) / speed
     return OK
 
 
