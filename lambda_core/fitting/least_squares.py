@@ -183,7 +183,8 @@ class Fit:
         Without a range that is nothing for fitted ones.
         """
         spread = spreads(self.parameters)
-        weighted = self.jacobian / (self.errors * self.scale)[:, None]
+        slopes = self.jacobian / (self.errors * self.scale)[:, None]
+        weighted = U.counted(slopes, U.huber_weights(self.standardised, self.limit))
         information = weighted.T @ weighted / self.factor
         low, high = bounds(self.parameters)
         known = np.isfinite(high - low)
@@ -350,7 +351,7 @@ class _Search:
         if self._interrupted:
             matrix = self._known_so_far(factor)
         elif free:
-            matrix[np.ix_(free, free)] = U.covariance(self._weighted(free), factor)
+            matrix[np.ix_(free, free)] = U.covariance(self._counted(free), factor)
         slopes = self._slopes()
         weighted = slopes / (self._errors * self._scale)[:, None]
         names = [parameter.name for parameter in parameters]
@@ -392,11 +393,20 @@ class _Search:
 
     def _weighted(self, columns: Sequence[int] | range) -> FloatArray:
         """Return derivatives over errors, with a row for every prior."""
-        rows = [self._slopes() / (self._errors * self._scale)[:, None]]
-        for index, parameter in enumerate(self._parameters):
-            if parameter.is_prior:
-                rows.append(np.eye(len(self._parameters))[index : index + 1] / parameter.spread)
-        found: FloatArray = np.vstack(rows)[:, list(columns)]
+        return self._with_priors(self._slopes() / (self._errors * self._scale)[:, None], columns)
+
+    def _counted(self, columns: Sequence[int]) -> FloatArray:
+        """Return the same with the weights of the residuals."""
+        slopes = np.zeros((self._data.values.size, len(self._parameters)))
+        slopes[:, columns] = self._slopes()[:, columns] / (self._errors * self._scale)[:, None]
+        weights = U.huber_weights(self._standardised() / self._scale, self._limit)
+        return self._with_priors(U.counted(slopes, weights), columns)
+
+    def _with_priors(self, slopes: FloatArray, columns: Sequence[int] | range) -> FloatArray:
+        """Return columns of derivatives, with a row for every prior."""
+        eye = np.eye(len(self._parameters))
+        priors = [eye[index] / prior.spread for index, prior in enumerate(self._parameters) if prior.is_prior]
+        found: FloatArray = np.vstack([slopes, *priors])[:, list(columns)]
         return found
 
     def _standardised(self) -> FloatArray:
@@ -440,12 +450,12 @@ class _Search:
         own = U.robust_factor(residuals, free, self._limit)
         # Where few points are left inside the limit, the robust formula overstates what the residuals show.
         own = min(own, float(np.sum(residuals**2)) / (residuals.size - free))
-        return own if math.isfinite(own) and own > U.NORMAL_FACTOR else U.NORMAL_FACTOR
+        return max(U.NORMAL_FACTOR, own)
 
     def _deviations(self) -> FloatArray:
         free = [index for index in range(len(self._parameters)) if index not in self._held]
         found = np.full(len(self._parameters), math.inf)
-        found[free] = np.sqrt(np.diag(U.covariance(self._weighted(free), self._factor())))
+        found[free] = np.sqrt(np.diag(U.covariance(self._counted(free), self._factor())))
         return found
 
     def _minimised(self) -> FloatArray:
@@ -475,14 +485,7 @@ class _Search:
         def slopes(part: FloatArray) -> FloatArray:
             point = all_parameters(part)
             own = self._recorder.near_slopes(point, spread) if self._costly else self._recorder.slopes(point)
-            rows = [own / errors[:, None]]
-            rows += [
-                np.eye(len(self._parameters))[i : i + 1] / p.spread
-                for i, p in enumerate(self._parameters)
-                if p.is_prior
-            ]
-            found: FloatArray = np.vstack(rows)[:, free]
-            return found
+            return self._with_priors(own / errors[:, None], free)
 
         self._recorder.best = (math.inf, self._point)
         self._recorder.slopes(self._point)  # each round begins with computed derivatives

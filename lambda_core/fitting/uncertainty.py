@@ -73,11 +73,37 @@ def robust_factor(standardised: FloatArray, count: int, limit: float = HUBER) ->
     """
     n = standardised.size
     inside = float(np.mean(np.abs(standardised) < limit))
-    if n <= count or inside == 0.0:
-        return float("nan")
     psi = np.clip(standardised, -limit, limit)
+    if inside == 0.0:  # the mean of psi' says nothing; psi(z)/z has one
+        return float(np.sum(psi**2)) / (n - count) / float(np.mean(huber_weights(standardised, limit))) ** 2
     small = 1.0 + count / n * (1.0 - inside) / inside
     return small**2 * float(np.sum(psi**2)) / (n - count) / inside**2
+
+
+def counted(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return slopes that count in a robust fit.
+
+    A point with a small weight pulls the fit no more than others, however large its slopes are. The information is
+    W (J^T J)^-1 W with W = J^T D J and D the weights over their mean. It is J^T J where all weights are equal, and
+    never more.
+
+    Parameters
+    ----------
+    weights : float64[:], shape (n,)
+        psi(z)/z of the residuals.
+
+    Returns
+    -------
+    float64[:, :], shape (min(n, p), p)
+
+    References
+    ----------
+    Huber and Ronchetti 2009, Robust Statistics, 2nd ed., eq. 7.83. It has psi'(z) in place of psi(z)/z; that is zero
+    for all large residuals, and then W has no inverse if a wrong law leaves few small ones.
+    """
+    basis, singular, vectors = np.linalg.svd(jacobian, full_matrices=False)
+    found: FloatArray = (basis.T @ (basis * (weights / weights.mean())[:, None])) @ (singular[:, None] * vectors)
+    return found
 
 
 def covariance(jacobian: FloatArray, factor: float) -> FloatArray:

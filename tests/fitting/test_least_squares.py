@@ -13,7 +13,8 @@ from lambda_core.fitting.least_squares import Data, fit
 from lambda_core.fitting.next_point import next_point
 from lambda_core.fitting.parameters import Parameter
 from lambda_core.fitting.residual_tests import trend_test
-from lambda_core.fitting.uncertainty import robust_factor
+from lambda_core.fitting.sentence import sentence
+from lambda_core.fitting.uncertainty import counted, robust_factor
 
 from . import certified as C
 from . import synthetic as S
@@ -153,6 +154,31 @@ def test_an_outlier_is_named_and_hardly_moves_the_fit() -> None:
     assert np.all(np.abs(spoiled.values - clean.values) < 2.0 * clean.standard_errors)
 
 
+def test_an_outlier_with_large_slopes_determines_nothing() -> None:
+    """Pull a parameter to its limit by one wrong point.
+
+    Its slope of 1e6 gave 0.02 an error of 1.2e-6 although ten right points say 0.04.
+    """
+    slopes = np.array([*[1000.0] * 10, 1e6])
+    values = np.array([*40.0 + np.linspace(-1.5, 1.5, 10), 40.0])
+    found = fit(lambda p: p[0] * slopes, [Parameter("loss", 0.03, 0.02, 0.06)], Data(values, 0.03 * values))
+    assert found.outliers[-1] == 10
+    assert found.values[0] == pytest.approx(0.02)
+    assert found.contains(np.array([0.04]))
+    assert "determine loss" not in sentence(found)
+    assert found.posterior[0, 0] > 0.005**2
+
+
+def test_the_information_counts_the_weights_of_residuals() -> None:
+    """Compare it with Huber and Ronchetti 2009, eq. 7.83."""
+    random = np.random.default_rng(1)
+    jacobian, weights = random.standard_normal((9, 2)), random.uniform(0.1, 1.0, 9)
+    own = counted(jacobian, weights)
+    square, part = jacobian.T @ jacobian, jacobian.T @ np.diag(weights / weights.mean()) @ jacobian
+    np.testing.assert_allclose(own.T @ own, part @ np.linalg.inv(square) @ part)
+    np.testing.assert_allclose(counted(jacobian, 0.3 * np.ones(9)).T @ counted(jacobian, np.ones(9)), square)
+
+
 def test_bands_hold_new_measurements() -> None:
     at = S.plan()
     true = S.torque(S.TRUTH, at)
@@ -225,6 +251,11 @@ def test_the_covariance_counts_free_residuals_and_outliers() -> None:
     """
     residuals = np.array([0.5, -0.5, 0.5, -0.5, 1.0, -1.0, 3.0, -3.0])
     assert robust_factor(residuals, 2, 1.5) == pytest.approx((13 / 12) ** 2 * (7.5 / 6) / 0.75**2)
+
+
+def test_residuals_all_far_outside_widen_the_errors() -> None:
+    """Widen by the size of the residuals."""
+    assert robust_factor(np.array([20.0, -20.0] * 4), 2) == pytest.approx(20.0**2 * 8 / 6)
 
 
 def test_a_trend_of_a_thousand_right_rows_is_as_rare_as_promised() -> None:
