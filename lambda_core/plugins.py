@@ -33,6 +33,7 @@ from lambda_core.views.method import (
     RollerMethodInputs,
 )
 from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
+from lambda_core.views.roller_profile import PROFILE_API, RollerProfile, RollerShape
 from lambda_core.views.scene import Scene
 from lambda_core.views.section import SECTION_API, ReportTable, Section
 from lambda_core.views.table import Column, StudyTable
@@ -46,6 +47,7 @@ __all__ = [
     "METHOD_API",
     "OBSERVER_API",
     "OK",
+    "PROFILE_API",
     "ROLE_API",
     "SECTION_API",
     "VACUUM_PERMITTIVITY",
@@ -80,6 +82,8 @@ __all__ = [
     "Quantity",
     "ReportTable",
     "RollerMethodInputs",
+    "RollerProfile",
+    "RollerShape",
     "RunData",
     "Samples",
     "Scene",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.units import Angle, Length, SmallLength
@@ -44,10 +44,10 @@ class InlineRollers(Section):
         reference="Wingertszahn et al. 2023, Lubricants 11, 369",
         gt=0.0,
     )
-    profile: Literal["iso", "logarithmic", "crowned", "two-radii", "tabulated", "none"] | None = option(
+    profile: Literal["iso", "logarithmic", "crowned", "two-radii", "tabulated", "none"] | str | None = option(
         None,
         'profile of the rollers: "iso" (ISO 16281), "logarithmic", "crowned", "two-radii", "tabulated" (by the options '
-        'below) or "none"; absent: the catalogue\'s, else iso',
+        "below), \"none\" or a plugin's; absent: the catalogue's, else iso",
     )
     profile_scale: float | None = option(
         None, "scale of the logarithmic profile over the roller diameter", gt=0.0, lt=0.01, reference="Teutsch 2005"
@@ -60,6 +60,7 @@ class InlineRollers(Section):
     profile_points: list[tuple[Length, SmallLength]] | None = option(
         None, 'of tabulated: distance from the middle and drop, [["0 mm", "0 um"], ["5.5 mm", "8 um"]]'
     )
+    profile_parameters: dict[str, Any] | None = option(None, "parameters of a plugin's profile")
     slices: int = option(
         SLICES,
         "laminae of a contact at an operating point; in motion 32",

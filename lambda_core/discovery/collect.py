@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel
 
@@ -14,6 +14,7 @@ from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError, PluginFault
 from lambda_core.domain.roles import ROLE_API, ROLES
+from lambda_core.elements.roller.profiles import Name as ProfileName
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.laws.old_form import new_form
 from lambda_core.laws.par import par_layout
@@ -21,6 +22,7 @@ from lambda_core.laws.parameter import default_fault
 from lambda_core.laws.state import state_fault
 from lambda_core.views.method import METHOD_API, Method
 from lambda_core.views.observer import event_fault, observer_fault
+from lambda_core.views.roller_profile import profile_fault
 from lambda_core.views.section import section_fault
 from lambda_core.views.view import view_fault
 
@@ -33,6 +35,7 @@ _KINDS = {
     "lambda_observers": "observer",
     "lambda_events": "event",
     "lambda_sections": "section",
+    "lambda_profiles": "profile",
 }
 
 
@@ -180,6 +183,8 @@ def _fault(entry: Entry) -> str:
         return event_fault(item) or _name_fault("event", item.name)
     if entry.hook == "lambda_sections":
         return section_fault(item) or _name_fault("section", item.name)
+    if entry.hook == "lambda_profiles":
+        return profile_fault(item) or _profile_name_fault(item.name)
     return view_fault(item) or _name_fault("view", item.name)
 
 
@@ -187,6 +192,12 @@ def _name_fault(kind: str, name: str) -> str:
     if _NAME.fullmatch(name):
         return ""
     return f'the {kind} name "{name}" is not in lower case with hyphens ("my-law")'
+
+
+def _profile_name_fault(name: str) -> str:
+    if name in get_args(ProfileName):
+        return f'the profile "{name}" is one of the program: choose another name'
+    return _name_fault("profile", name)
 
 
 def _lazy_fault(item: LazyLaw) -> str:

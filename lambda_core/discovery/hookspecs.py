@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.views.chart import ViewData
     from lambda_core.views.observer import Event, Observer
+    from lambda_core.views.roller_profile import RollerProfile
     from lambda_core.views.scene import Scene
     from lambda_core.views.section import Section
     from lambda_core.views.view import Figure, View
@@ -66,6 +67,11 @@ def lambda_events(register: Callable[[Event], None]) -> None:
 @hookspec
 def lambda_sections(register: Callable[[Section], None]) -> None:
     """Register sections of the report of a run: ``register(Section("noise-class", ...))``."""
+
+
+@hookspec
+def lambda_profiles(register: Callable[[RollerProfile], None]) -> None:
+    """Register profiles of rollers: ``register(RollerProfile("my-profile", ...))``."""
 
 
 @hookspec(firstresult=True)

@@ -37,6 +37,7 @@ _REGISTERING_HOOKS = (
     "lambda_observers",
     "lambda_events",
     "lambda_sections",
+    "lambda_profiles",
     "lambda_data",
 )
 

@@ -23,6 +23,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.views.method import Method
 from lambda_core.views.observer import Event, Observer
+from lambda_core.views.roller_profile import RollerProfile
 from lambda_core.views.section import Section
 from lambda_core.views.view import Figure, View
 
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
     from lambda_core.views.scene import Scene
 
-OtherKind = Literal["method", "view", "observer", "event", "section"]
+OtherKind = Literal["method", "view", "observer", "event", "section", "profile"]
 log = logging.getLogger("lambda_core")
 
 
@@ -61,6 +62,8 @@ class Registry:
         Events by name.
     sections : mapping of str to Section
         Sections of reports by name.
+    profiles : mapping of str to RollerProfile
+        Profiles of rollers by name.
     data_folders : tuple of (str, pathlib.Path)
         Distribution and folder of catalogue rows.
     """
@@ -89,13 +92,14 @@ class Registry:
         self.observers: Mapping[str, Observer] = _of_kind(collection, "observer")
         self.events: Mapping[str, Event] = _of_kind(collection, "event")
         self.sections: Mapping[str, Section] = _of_kind(collection, "section")
+        self.profiles: Mapping[str, RollerProfile] = _of_kind(collection, "profile")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
     def by_kind(self) -> dict[OtherKind, Mapping[str, Any]]:
         """Return everything but the models, by name under its kind."""
         return {
             "method": self.methods, "view": self.views, "observer": self.observers, "event": self.events,
-            "section": self.sections,
+            "section": self.sections, "profile": self.profiles,
         }  # fmt: skip
 
     def names(self, role: str) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
 from lambda_core.laws.state import ROLE as STATES
 
-Kind = Literal["model", "method", "view", "observer", "event", "section", "data", "command"]
+Kind = Literal["model", "method", "view", "observer", "event", "section", "profile", "data", "command"]
 
 
 class ParameterCard(FieldCard):

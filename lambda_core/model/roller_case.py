@@ -21,6 +21,7 @@ from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import parse, show
 from lambda_core.domain.value_status import ESTIMATED, ValueStatus
+from lambda_core.elements.roller.rib import tapered_angles
 from lambda_core.elements.roller.roller_bearing import RollerBearing, is_conical
 from lambda_core.elements.roller.roller_capacitance import Dielectric
 from lambda_core.elements.roller.roller_clearance import roller_clearance
@@ -59,6 +60,7 @@ from lambda_core.model.roller_loads import (
     ring_masses,
 )
 from lambda_core.model.settings.contamination import contamination_of
+from lambda_core.views.roller_profile import RollerShape
 
 if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
@@ -342,6 +344,11 @@ def roller_geometry(
         "contact_angle": number["contact_angle"],
     }
     dynamic, static, limit = _ratings(case, row, shape, ledger)
+    half = (
+        shape["contact_angle"]
+        and tapered_angles(shape["roller_diameter"], shape["pitch_diameter"], shape["contact_angle"]).half
+    )
+    profile = profile_of(rollers, row, RollerShape(shape["roller_diameter"], shape["length"], half), ledger)
     materials = materials_apart(("inner", "outer", "balls"), case, catalogue, ledger)
     inner, outer, roller = (materials[part] for part in ("inner", "outer", "balls"))
     try:
@@ -370,7 +377,7 @@ def roller_geometry(
             caged=case.depth.cage,
             moduli=(effective_modulus(roller, inner), effective_modulus(roller, outer)),
             density=roller.density,
-            **profile_of(rollers, row, number["roller_diameter"], number["effective_length"], ledger),
+            **profile,
         )
     except ValueError as error:
         ledger.problem("bearing.rollers", str(error).replace("`", ""))

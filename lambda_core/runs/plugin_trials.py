@@ -165,6 +165,8 @@ class _Trial:
             if kind == "method":
                 (answered,) = evaluate_methods([item], self.inputs)
                 return ([answered.reason], [], "") if answered.failed else ([], [], answered.reason)
+            if kind == "profile":
+                return [], [], ""  # its values were checked when it was registered
             if kind == "section":
                 content_of(item, self.result)
             elif item.subject in _NOT_HERE:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import Any
+from typing import Any, get_args
 
 from lambda_core.case.rollers import InlineRollers
 from lambda_core.catalogue.protocol import RollerRow
+from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
+from lambda_core.elements.roller.profiles import Name
+from lambda_core.model.laws.given_parameters import given_parameters, record_parameters
 from lambda_core.model.ledger import Ledger
+from lambda_core.views.roller_profile import RollerShape, profile_points
 
 # Options that a profile needs, and those that it may have; the others are refused.
 _NEEDS: Mapping[str, tuple[str, ...]] = {
@@ -19,21 +23,20 @@ _NEEDS: Mapping[str, tuple[str, ...]] = {
     "tabulated": ("profile_points",),
 }
 _MAY: Mapping[str, tuple[str, ...]] = {"two-radii": ("profile_middle_radius",)}
-_OPTIONS = ("profile_scale", "profile_length", "profile_radius", "profile_middle_radius", "profile_points")
+_PARAMETERS = "profile_parameters"  # of a plugin's
+_OPTIONS = (
+    *("profile_scale", "profile_length", "profile_radius", "profile_middle_radius", "profile_points"),
+    _PARAMETERS,
+)
 
 
-def profile_of(
-    rollers: InlineRollers, row: RollerRow | None, diameter: float, length: float, ledger: Ledger
-) -> dict[str, Any]:
+def profile_of(rollers: InlineRollers, row: RollerRow | None, roller: RollerShape, ledger: Ledger) -> dict[str, Any]:
     """Return a profile's fields of RollerBearing.
 
-    They come from the case, otherwise from the catalogue, otherwise from ISO 16281.
-
-    Parameters
-    ----------
-    diameter, length : float
-        Of the roller, and effective length of its contacts [m].
+    They come from the case, otherwise from the catalogue, otherwise from ISO 16281. A plugin's profile is a table here.
     """
+    if rollers.profile not in (None, *get_args(Name)):
+        return _of_plugin(rollers, str(rollers.profile), roller, ledger)
     written = {name: getattr(rollers, name) for name in _OPTIONS if getattr(rollers, name) is not None}
     given = dict(written)
     if row is not None and rollers.profile in (None, "logarithmic"):
@@ -50,15 +53,36 @@ def profile_of(
             ledger.problem(f"bearing.rollers.{option}", f"is no option of the profile {name}: leave it out")
     if name == "iso" and rollers.profile is None:
         ledger.assume("profile of the rollers after ISO 16281: none is given")
-    if problem := _no_profile(name, given, length):
+    if problem := _no_profile(name, given, roller.effective_length):
         ledger.problem(*problem)
         return {}
     found = {option: value for option, value in given.items() if option in takes}
     if "profile_scale" in found:
-        found["profile_scale"] *= diameter
+        found["profile_scale"] *= roller.diameter
     if "profile_points" in found:
         found["profile_points"] = tuple(found["profile_points"])
     return {"profile": name, **found}
+
+
+def _of_plugin(rollers: InlineRollers, name: str, roller: RollerShape, ledger: Ledger) -> dict[str, Any]:
+    """Return the table of a plugin's profile."""
+    from lambda_core.discovery.api import registry
+
+    where, known = "bearing.rollers.profile", registry().profiles
+    if name not in known:
+        ledger.problem(where, unknown_name("profile", name, (*get_args(Name), *known)))
+        return {}
+    for option in _OPTIONS:
+        if option != _PARAMETERS and getattr(rollers, option) is not None:
+            ledger.problem(f"bearing.rollers.{option}", f"is no option of the profile {name}: leave it out")
+    item, texts, place = known[name], rollers.profile_parameters or {}, f"{where}_parameters"
+    parameters = given_parameters(f"the profile {name}", item.parameters, texts, place, ledger)
+    points = parameters and ledger.ask(where, lambda: profile_points(item, roller, parameters))
+    if parameters is None or points is None:
+        return {}
+    ledger.record(where, name, "", item.distribution, "given")
+    record_parameters(parameters, texts, place, ledger)
+    return {"profile": "tabulated", "profile_points": points}
 
 
 def _no_profile(name: str, given: Mapping[str, Any], length: float) -> tuple[str, str] | None:
