@@ -156,6 +156,8 @@ def _own_folder() -> Path:
 def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
     """Copy a measured series into the user's data folder."""
     source = Path(path)
+    if source.suffix == ".toml" and not source.exists():
+        raise UsageError(f"{source} does not exist: correct the path")
     if source.suffix != ".toml" or not source.is_file():
         raise UsageError(
             f"{source} is not a TOML file: write title, source, licence, how_read and uncertainty into one"

@@ -84,8 +84,7 @@ def counted(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
     """Return slopes that count in a robust fit.
 
     A point with a small weight pulls the fit no more than others, however large its slopes are. The information is
-    W (J^T J)^-1 W with W = J^T D J and D the weights over their mean. It is J^T J where all weights are equal, and
-    never more.
+    W (J^T J)^-1 W with W = J^T D J and D the weights over their mean. It is J^T J where all weights are equal.
 
     Parameters
     ----------

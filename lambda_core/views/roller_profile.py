@@ -68,7 +68,9 @@ def profile_fault(item: object) -> str:
         return f"lambda_profiles registers a {type(item).__name__}: wrap it in RollerProfile(name, title, ...)"
     label = f"the profile {item.name}"
     if item.profile_api != PROFILE_API:
-        return f"{label} is not written for this version of the interface: write profile_api={PROFILE_API}"
+        if not item.profile_api:
+            return f"{label} does not say for which version it is written: write profile_api={PROFILE_API}"
+        return f"{label} is written for version {item.profile_api} of the interface; this is {PROFILE_API}"
     if not callable(item.drop):
         return f"{label} calls a {type(item.drop).__name__}, not a function"
     if not item.reference.strip():

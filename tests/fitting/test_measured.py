@@ -142,6 +142,8 @@ def test_an_added_series_is_listed_and_compared(
     assert one.points[0].measured == 1250.0
     assert main(["measured", "add", str(tmp_path / "rig.toml")]) == 2
     assert "--force" in capsys.readouterr().err
+    assert main(["measured", "add", str(tmp_path / "rib.toml")]) == 2
+    assert "rib.toml does not exist" in capsys.readouterr().err
     (tmp_path / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,1300\n")
     assert main(["measured", "add", str(tmp_path / "rig.toml"), "--force"]) == 0
     (one,) = api.compare_measured(["rig"], band=False).compared

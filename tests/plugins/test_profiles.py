@@ -88,7 +88,7 @@ def test_a_plugin_gives_rollers_their_profile() -> None:
 def test_a_profile_that_does_not_exist_or_fit_is_refused() -> None:
     for options, words in (
         ({"profile": "quartik"}, '"quartik" is not a known profile.*nearest: quartic'),
-        ({"profile": "crownd"}, "nearest: crowned"),
+        ({"profile": "crownd"}, "nearest: crowned.*--plugin FILE"),
         ({"profile": "quartic", "profile_parameters": {"edg": "1 um"}}, "edg.*nearest: edge"),
         ({"profile": "quartic", "profile_radius": "1 m"}, "no option of the profile quartic"),
     ):
@@ -118,6 +118,7 @@ def test_a_profile_needs_a_free_name_a_version_and_a_reference() -> None:
     for item, words in (
         (RollerProfile("crowned", "", flat, "own work", profile_api=1), "is one of the program"),
         (RollerProfile("mine", "", flat, "own work"), "write profile_api=1"),
+        (RollerProfile("mine", "", flat, "own work", profile_api=2), "version 2 of the interface; this is 1"),
         (RollerProfile("mine", "", flat, " ", profile_api=1), "has no reference"),
     ):
         assert words in Collection().take([Entry("lambda_profiles", "guest 1.0", item)])

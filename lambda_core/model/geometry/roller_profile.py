@@ -70,7 +70,8 @@ def _of_plugin(rollers: InlineRollers, name: str, roller: RollerShape, ledger: L
 
     where, known = "bearing.rollers.profile", registry().profiles
     if name not in known:
-        ledger.problem(where, unknown_name("profile", name, (*get_args(Name), *known)))
+        nearest = unknown_name("profile", name, (*get_args(Name), *known))
+        ledger.problem(where, f"{nearest}; for a profile of a plugin give --plugin FILE or install its package")
         return {}
     for option in _OPTIONS:
         if option != _PARAMETERS and getattr(rollers, option) is not None:
