@@ -8,6 +8,8 @@ References
 ----------
 Affine-invariant ensembles: Goodman and Weare 2010, Commun. Appl. Math. Comput. Sci. 5, 65; emcee: Foreman-Mackey et al.
 2013, Publ. Astron. Soc. Pac. 125, 306. Interpolation of costly models: Sacks et al. 1989, Statist. Sci. 4, 409.
+Robust loss as density: Huber 1964, Ann. Math. Statist. 35, 73; how much it counts: Lyddon, Holmes and Walker 2019,
+Biometrika 106, 465.
 """
 
 from __future__ import annotations
@@ -81,8 +83,8 @@ def sample(model: Model, found: Fit, count: int) -> Posterior:
 
     It includes parameters that the data do not determine.
 
-    Before the measurements each parameter is uniform over its range. Residuals count as in the fit: by Huber's loss,
-    over the same errors, and wider by the same factor where they are larger than these.
+    Before the measurements each parameter is uniform over its range. Residuals count as in the fit: the density of the
+    measured values is exp(-c rho), with Huber's loss rho over the same errors, see :func:`loss_share` for c.
 
     Parameters
     ----------
@@ -96,13 +98,14 @@ def sample(model: Model, found: Fit, count: int) -> Posterior:
     emcee = sampler_package()
     low, high = _region(found)
     predict, error = _interpolation(model, found, low, high)
+    share = loss_share(found)
 
     def logarithm(points: FloatArray) -> FloatArray:
         inside = np.all((points >= low) & (points <= high), axis=1)
         standardised = (predict(np.clip(points, low, high)) - found.data.values) / (found.errors * found.scale)
-        size = np.abs(standardised)
-        loss = np.where(size <= found.limit, 0.5 * size**2, found.limit * size - 0.5 * found.limit**2)
-        return np.where(inside, -loss.sum(axis=1) / found.factor, -math.inf)
+        pull = np.minimum(np.abs(standardised), found.limit)
+        loss = pull * (np.abs(standardised) - 0.5 * pull)
+        return np.where(inside, -share * loss.sum(axis=1), -math.inf)
 
     random = np.random.RandomState(_SEED)  # the kind that the package takes
     walkers = max(_WALKERS, 4 * low.size)
@@ -115,6 +118,20 @@ def sample(model: Model, found: Fit, count: int) -> Posterior:
     time = float(np.max(emcee.autocorr.integrated_time(chains, tol=0)))
     kept = chains[::_APART].reshape(-1, low.size)[:count]
     return Posterior(kept, min(float(len(kept)), steps * walkers / max(time, 1.0)), error)
+
+
+def loss_share(found: Fit) -> float:
+    """Return how much Huber's loss counts in the posterior.
+
+    Well-determined parameters then have the covariance V = factor (J^T J)^-1 of the fit (Lyddon, Holmes and Walker
+    2019): the loss alone has the curvature mean(psi') J^T J, so it counts 1/(factor mean(psi')). Where few residuals
+    lie within the limit, their share says little about psi'; it is then at least rms(psi)/rms(z), with which Huber's
+    factor mean(psi^2)/mean(psi')^2 is that of least squares, which bounds the factor of the fit.
+    """
+    residuals = found.standardised
+    psi = np.clip(residuals, -found.limit, found.limit)
+    ratio = math.sqrt(float(np.sum(psi**2)) / max(float(np.sum(residuals**2)), 1e-300))
+    return 1.0 / (found.factor * max(float(np.mean(np.abs(residuals) < found.limit)), ratio))
 
 
 def _region(found: Fit) -> tuple[FloatArray, FloatArray]:
