@@ -25,6 +25,7 @@ from lambda_core.fitting.subjects import Subject, subject_of
 from lambda_core.results.record import INTERFACE, Record
 
 _FOLDER = "measured_data"
+_CASES = "cases"  # folder of the cases that were added with series
 
 
 class MeasuredSeries(Record):
@@ -131,7 +132,7 @@ def all_series() -> list[MeasuredSeries]:
     for folder in _folders():
         entries = folder.iterdir() if folder.is_dir() else ()
         names = sorted(entry.name for entry in entries if entry.name.endswith(".toml"))
-        read = [_read(folder.joinpath(name).read_text(encoding="utf-8"), name) for name in names]
+        read = [_read(folder, name) for name in names]
         found |= {series.name: series for series in read if series.name not in found}
     return list(found.values())
 
@@ -154,7 +155,14 @@ def _own_folder() -> Path:
 
 
 def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
-    """Copy a measured series into the user's data folder."""
+    """Copy a measured series into the user's data folder.
+
+    A case that is no built-in one is stored with it, with the tables that it names: the series is compared anywhere.
+    """
+    from lambda_core.case.builtin import is_builtin
+    from lambda_core.case.case_io import read_case
+    from lambda_core.case.case_writer import standalone_toml
+
     source = Path(path)
     if source.suffix == ".toml" and not source.exists():
         raise UsageError(f"{source} does not exist: correct the path")
@@ -170,7 +178,12 @@ def add_series(path: str | Path, *, overwrite: bool = False) -> MeasuredSeries:
     if name in known and not (overwrite and target.is_file()):
         why = "--force replaces it" if target.is_file() else "it comes with the program: rename your files"
         raise UsageError(f'there is a measured series "{name}" already; {why}')
-    target.parent.mkdir(parents=True, exist_ok=True)
+    (target.parent / _CASES).mkdir(parents=True, exist_ok=True)
+    own, case = target.parent / _CASES / source.name, loaded.series.case
+    if case and not (isinstance(case, str) and is_builtin(case)):
+        own.write_text(standalone_toml(read_case(case, folder=source.parent)), encoding="utf-8")
+    else:
+        own.unlink(missing_ok=True)
     for ending in (".csv", ".toml"):  # a description without points is never seen
         shutil.copyfile(source.with_suffix(ending), target.with_suffix(ending))
     return loaded.series
@@ -189,23 +202,31 @@ def compare(
     return MeasuredComparison(compared=found)
 
 
-def _read(text: str, name: str) -> MeasuredSeries:
-    """Read the description of a series."""
+def _read(folder: Traversable, name: str) -> MeasuredSeries:
+    """Read the description of a series.
+
+    A file of a case is named from the folder of the description, and one that was stored with it comes first.
+    """
     from lambda_core.case.case_io import toml_tables
 
-    tables: dict[str, Any] = toml_tables(text, name)
+    tables: dict[str, Any] = toml_tables(folder.joinpath(name).read_text(encoding="utf-8"), name)
     try:
-        return MeasuredSeries(**{**tables, "name": name.removesuffix(".toml")})
+        found = MeasuredSeries(**{**tables, "name": name.removesuffix(".toml")})
     except ValidationError as error:
         raise CaseError(name, [Problem(".".join(map(str, e["loc"])), e["msg"]) for e in error.errors()]) from None
+    files_of_case = [folder.joinpath(_CASES).joinpath(name)] if folder == _own_folder() else []
+    if found.case and isinstance(found.case, str):
+        files_of_case.append(folder.joinpath(found.case))
+    case = next((str(file) for file in files_of_case if file.is_file()), found.case)
+    return found.model_copy(update={"case": case})
 
 
 def _load(name: str) -> _Loaded:
     """Return a series with its points."""
     path = Path(name)
     if path.suffix == ".toml" and path.is_file():
-        series = _read(path.read_text(encoding="utf-8"), path.name)
-        subject, refused = _subject(series)
+        series = _read(path.parent, path.name)
+        subject, refused = _subject(series, path.parent)
         points = read_measurements(path.with_suffix(".csv"), _words(subject))
         return _Loaded(series, points, subject, refused)
     known = {series.name: series for series in all_series()}
@@ -222,18 +243,20 @@ def _load(name: str) -> _Loaded:
         return _Loaded(known[name], None, None, None)
     if not file.is_file():
         raise UsageError(f"measured series {name}: {name}.csv with its points is missing next to {name}.toml")
-    subject, refused = _subject(known[name])
+    subject, refused = _subject(known[name], None)
     points = parse_measurements(file.read_text(encoding="utf-8"), f"{name}.csv", _words(subject))
     return _Loaded(known[name], points, subject, refused)
 
 
-def _subject(series: MeasuredSeries) -> tuple[Subject | None, LambdaError | None]:
+def _subject(series: MeasuredSeries, folder: Path | None) -> tuple[Subject | None, LambdaError | None]:
     """Return what predicts a series.
 
-    Otherwise return what is wrong with its case.
+    Otherwise return what is wrong with its case. `folder` is where tables of a case look up their files.
     """
+    from lambda_core.case.case_io import read_case
+
     try:
-        return (subject_of(series.case), None) if series.case else (None, None)
+        return (subject_of(read_case(series.case, folder=folder)), None) if series.case else (None, None)
     except LambdaError as error:
         return None, error
 

@@ -150,6 +150,46 @@ def test_an_added_series_is_listed_and_compared(
     assert one.points[0].measured == 1300.0
 
 
+def test_an_added_series_brings_its_case_along(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Compare a series from another folder, and replace its case.
+
+    The case was not stored: the series was computed in its own folder only.
+    """
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(tmp_path / "data"))
+    rig, away = tmp_path / "rig", tmp_path / "away"
+    rig.mkdir()
+    away.mkdir()
+    monkeypatch.chdir(away)
+    head = 'title = "rig"\nsource = "us"\nlicence = "CC0"\nhow_read = "sensor"\nuncertainty = "2 %"\n'
+    (rig / "motor.toml").write_text(
+        'name = "motor"\nbearing = { designation = "SKF 6208" }\noperation = { speed = "1500 rpm" }\n'
+        'lubricant = { name = "FVA3", temperature = "60 degC" }\nloads = { radial = "2 kN" }\n'
+    )
+    (rig / "rig.toml").write_text(f'{head}case = "motor.toml"\n')
+    (rig / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,50\n")
+
+    def predicted(name: str) -> float:
+        (one,) = api.compare_measured([name], band=False).compared
+        assert not one.reason
+        return one.points[0].predicted
+
+    alone = predicted(str(rig / "rig.toml"))
+    assert main(["measured", "add", str(rig / "rig.toml")]) == 0
+    (rig / "motor.toml").unlink()
+    assert predicted("rig") == alone
+    assert main(["measured", "compare", "rig", "--band", "none", "-q"]) == 0
+    assert "not computed" not in capsys.readouterr().out
+    (rig / "rig.toml").write_text(f'{head}case = "6319-cp10-1500"\n')
+    assert main(["measured", "add", str(rig / "rig.toml"), "--force"]) == 0
+    assert predicted("rig") > 10.0 * alone
+    (rig / "rig.toml").write_text(f'{head}case = "motor.toml"\n')
+    assert main(["measured", "add", str(rig / "rig.toml"), "--force"]) == 2
+    assert "motor.toml" in capsys.readouterr().err
+    assert predicted("rig") > 10.0 * alone
+
+
 @pytest.mark.parametrize("name", ["none.toml", "6319-friction.toml"])
 def test_a_series_without_points_or_with_a_taken_name_is_not_added(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -49,9 +49,10 @@ def test_samples_stay_within_the_range_and_lean_on_its_end() -> None:
 
 
 def test_an_outlier_counts_in_the_samples_as_in_the_fit() -> None:
-    """Sample a constant from 24 normal values, one moved by ten errors.
+    """Sample a constant of 24 values with one outlier.
 
-    Samples were 15 % wider than the fit: the loss counted 1/factor, though its curvature is below one.
+    One normal value of 24 is moved by ten errors. Samples were 15 % wider than the fit: the loss counted 1/factor,
+    though its curvature is below one.
     """
     pytest.importorskip("emcee")
     values = 5.0 + 0.1 * norm.ppf((np.arange(24) + 0.5) / 24)
@@ -70,7 +71,7 @@ def test_an_outlier_counts_in_the_samples_as_in_the_fit() -> None:
 
 
 def test_residuals_that_are_all_large_keep_the_samples_wide() -> None:
-    """Sample a constant whose errors are ten times too small."""
+    """Sample a constant with errors ten times too small."""
     pytest.importorskip("emcee")
     values = 5.0 + norm.ppf((np.arange(24) + 0.5) / 24)
     found = fit(lambda p: np.full(24, p[0]), [Parameter("x", 4.0, 0.0, 10.0)], Data(values, np.full(24, 0.1)))
