@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -14,7 +14,9 @@ from lambda_cli.plugin_option import named_plugin
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from lambda_core.api import CheckCard, ModelCard
+    from lambda_core.api import CheckCard, ModelCard, PartCard
+
+_PARTS: Final = ("method", "view", "observer", "event", "section", "profile")
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help="List, show, check and create plugins.")
 
@@ -79,39 +81,51 @@ def show(
         typer.Argument(
             metavar="ROLE/NAME",
             help="For example traction/ree-eyring; ree-eyring is enough if only one role has it. Or FILE.py, or a "
-            "package: all of its laws.",
+            "package: all that it brings. Or KIND/NAME, for example profile/barrel.",
         ),
     ],
     as_json: JsonOption = False,
 ) -> None:
-    """Show one model, or those of a plugin.
+    """Show one model, or all that a plugin brings.
 
     The plugin is a file or a package. The command prints parameters with units, limits and sources, the validity and
-    the reference.
+    the reference; of methods, views, profiles and other parts title, parameters and reference.
     """
     from lambda_core import api
 
     name = named_plugin(model)
-    listed = api.plugins().items
-    if not any(item.distribution.split(" ")[0] == name for item in listed):
-        card = api.plugin_model(model)
-        if as_json:
-            typer.echo(card.model_dump_json(indent=2))
-        else:
-            _show_card(card)
-        return
-    own = [item for item in listed if item.role and item.distribution.split(" ")[0] == name]
-    cards = [api.plugin_model(f"{item.role}/{item.name}") for item in own]
+    models, parts, is_plugin = _asked(name)
     if as_json:
-        models = [json.loads(card.model_dump_json()) for card in cards]
-        typer.echo(json.dumps({"version": 1, "models": models}, indent=2))
+        data = [json.loads(card.model_dump_json()) for card in (*models, *parts)]
+        told = {"version": 1, "models": data[: len(models)], "parts": data[len(models) :]}
+        typer.echo(json.dumps(told if is_plugin else data[0], indent=2))
         return
-    if not cards:
-        _print(f"{name} brings no law; lambda-bearing plugins list has what it brings")
-    for number, card in enumerate(cards):
+    if not (models or parts):
+        _print(f"{name} brings no law, method, view or other part; lambda-bearing plugins list has what it brings")
+    for number, card in enumerate((*models, *parts)):
         if number:
             _print("")
-        _show_card(card)
+        (_show_part if isinstance(card, api.PartCard) else _show_card)(card)
+
+
+def _asked(name: str) -> tuple[list[ModelCard], list[PartCard], bool]:
+    """Return the cards of laws and of other parts.
+
+    They are those of a plugin, as the last tells, or one card.
+    """
+    from lambda_core import api
+
+    listed = api.plugins().items
+    own = [item for item in listed if item.distribution.split(" ")[0] == name]
+    is_plugin = bool(own)
+    if not is_plugin and not any(item.role and name in (item.name, f"{item.role}/{item.name}") for item in listed):
+        own = [item for item in listed if name in (item.name, f"{item.kind}/{item.name}")]
+    brought = {(item.kind, item.name) for item in own if not item.role}
+    parts = [card for kind in _PARTS for card in api.plugin_parts(kind) if (kind, card.name) in brought]
+    if is_plugin or parts:
+        models = [api.plugin_model(f"{item.role}/{item.name}") for item in own if item.role]
+        return models, parts, is_plugin
+    return [api.plugin_model(name)], [], False
 
 
 def _show_card(card: ModelCard) -> None:
@@ -144,6 +158,22 @@ def _show_card(card: ModelCard) -> None:
             parameter.description,
             " ".join(filter(None, (parameter.source, f"[{parameter.status}]" if parameter.status else ""))),
         )
+    _print("")
+    _print(table)
+
+
+def _show_part(card: PartCard) -> None:
+    _print(f"{card.kind}/{card.name}   {card.distribution}")
+    for title, text in (("title", card.title), ("reference", card.reference)):
+        if text:
+            _print(f"{title:<12} {text}")
+    if not card.parameters:
+        _print(f"{'parameters':<12} none")
+        return
+    table = _table("parameter", "default", "limits", "meaning")
+    for parameter in card.parameters:
+        default = "required" if parameter.required else parameter.default
+        table.add_row(parameter.name, default, ", ".join(parameter.limits), parameter.description)
     _print("")
     _print(table)
 

@@ -96,7 +96,7 @@ class Derived(Static):
         if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
             told = self._listed(geometry, numbers)
         else:
-            told = self._inline([] if warned else geometry[1:], numbers)  # the balls stand in the tree
+            told = self._inline([] if warned else geometry[1:], numbers)  # balls or rollers stand in the tree
         return Text("\n").join([*self._warned(warned, told), told])
 
     def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
@@ -229,9 +229,13 @@ def _not_met(verdict: Any) -> list[str]:
 
 def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fact]:
     geometry = model.geometry
-    estimated = any(v.path == "bearing.ball_diameter" and v.status in ESTIMATED for v in values)
-    mark = "≈ " if estimated else ""
-    yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
+    paths, rollers = ("bearing.ball_diameter", "bearing.rollers.roller_diameter"), model.rollers
+    mark = "≈ " if any(v.path in paths and v.status in ESTIMATED for v in values) else ""
+    size = f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}"
+    if rollers is None:
+        yield "balls", size, "mm"
+    else:
+        yield "rollers", f"{size} x {rollers.length * 1e3:.5g}", "mm"
     yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"
     yield "clearance", f"{geometry.clearance * 1e6:.3g}", "um"
     if geometry.contact_angle:
@@ -243,7 +247,7 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     rating = state.rating
     loaded = [contact for contact in state.contacts if contact.load_N > 0.01 * state.max_load_N]
     angles = [abs(contact.contact_angle_deg) for contact in loaded]
-    if angles:
+    if angles and (state.rollers is None or max(angles) > 0.0):
         yield "α max", f"{max(angles):.1f}", "°"
     yield "Q max", grouped(state.max_load_N), f"N {state.max_load_ring}"
     yield "p", f"{state.max_pressure_GPa:.2f}", "GPa"
@@ -348,7 +352,7 @@ def between(ends: Sequence[float], digits: int) -> str:
 
     One where they read alike.
     """
-    low, high = (f"{end:.{digits}f}" for end in ends)
+    low, high = (f"{end:.{digits}f}" for end in (min(ends), max(ends)))
     return low if low == high else f"{low}..{high}"
 
 

@@ -31,6 +31,7 @@ from lambda_gui.laws import law_choice_row, law_choices, law_row
 from lambda_gui.nodes import Group, Keys, Node, is_freedom, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
+from lambda_gui.profiles import ProfileRow
 from lambda_gui.rows import Row, Stepped
 from lambda_gui.signals import SignalRow
 from lambda_gui.watchers import new_watchers, watcher_rows
@@ -72,6 +73,8 @@ def row_at(draft: Draft, keys: Keys, around: CaseContext) -> Row:
         return ChoiceRow(place, card, around, lambda: [ChoiceEntry(name, name) for name in around.names("cage")])
     if keys == ("lubricant", "properties", "rheology"):
         return ChoiceRow(place, card, around, lambda: law_choices("rheology")[1:])
+    if name == "profile" and keys[-2] == "rollers":
+        return ProfileRow(draft, keys[:-1], around)
     if keys == ("description",):
         return ParagraphRow(place, card, around)
     if card.kind == "signal":

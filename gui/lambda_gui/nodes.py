@@ -9,10 +9,14 @@ from typing import Any, Literal
 
 from pydantic import BaseModel
 
-from lambda_core.domain.option_tree import members, model_at
+from lambda_core.api import PROFILE_OPTIONS
+from lambda_core.domain.option_tree import is_time_function, members, model_at
 from lambda_core.domain.roles import ROLES
 
 Keys = tuple[str, ...]
+PROFILE_PARAMETERS = "profile_parameters"  # of a plugin's profile
+# Options of rollers that stand under the profile that takes them
+PROFILE = (*dict.fromkeys(name for names in PROFILE_OPTIONS.values() for name in names), PROFILE_PARAMETERS)
 Kind = Literal["form", "roles", "role", "named", "item"]
 Names = Mapping[str, tuple[str, ...]]  # section of named tables, or of a list -> names in the case
 
@@ -152,11 +156,7 @@ def plain_fields(root: type[BaseModel], table: Keys) -> list[str]:
     They are no tables themselves (time functions are options).
     """
     model = table_model(root, table)
-    return [
-        name
-        for name, info in model.model_fields.items()
-        if not any("kind" not in inner.model_fields for inner in members(info.annotation))
-    ]
+    return [name for name, info in model.model_fields.items() if all(map(is_time_function, members(info.annotation)))]
 
 
 def about(root: type[BaseModel], table: Keys, *, own: bool = True) -> str:

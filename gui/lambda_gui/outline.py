@@ -14,7 +14,7 @@ from lambda_core.api import InlineMaterial
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
-from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, is_freedom, plain_fields, table_model
+from lambda_gui.nodes import PROFILE, Group, Keys, Named, Names, Node, about, is_freedom, plain_fields, table_model
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -24,14 +24,17 @@ if TYPE_CHECKING:
 SECTIONS = "shaft.sections"
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
-    "ball_inner": "Ball - inner",
-    "ball_outer": "Ball - outer",
-    "ball_cage": "Ball - cage",
-    "ball_ball": "Ball - ball",
-    "cage_inner": "Cage - inner",
-    "cage_outer": "Cage - outer",
-    "fluid_drag": "Oil on the balls",
+    "ball_inner": "Inner raceway",
+    "ball_outer": "Outer raceway",
+    "rib_inner": "Inner ribs",
+    "rib_outer": "Outer ribs",
+    "ball_cage": "Cage pockets",
+    "ball_ball": "Neighbours",
+    "cage_inner": "Inner land",
+    "cage_outer": "Outer land",
+    "fluid_drag": "Oil drag",
 }
+LIKE = {"rib_inner": "ball_inner", "rib_outer": "ball_outer"}  # ribs have the roles of raceways
 # Titles of roles where the tree is narrow: one word before the name of the law
 SHORT = {
     "normal_contact": "contact",
@@ -83,6 +86,7 @@ _FIRST: dict[str, tuple[str, ...]] = {
 # Tables of a bearing that have a form of their own
 _OF_A_BEARING = {
     "geometry": "Inner geometry",
+    "rollers": "Rollers",
     "fits": "Fits",
     "temperatures": "Temperatures",
     "lubricant": "Its oil",
@@ -185,7 +189,11 @@ class _Outline:
 
     def _form(self, key: str, title: str, table: Keys, heading: str = "") -> Node:
         """Return the node of a table with all its options."""
-        node = Node(key, title, about(self.root, table), [self._group(table)], heading=heading)
+        group = self._group(table)
+        node = Node(key, title, about(self.root, table), [group], heading=heading)
+        if table[-1] == "rollers":  # the row of the profile has a row for each of its options
+            node.groups = [replace(group, names=tuple(name for name in group.names if name not in PROFILE))]
+            node.in_file = [(*table, name) for name in PROFILE]
         inner = [name for name in _IN_FILE.get(table[-1], ()) if name in table_model(self.root, table).model_fields]
         if inner:
             node.in_file = [(*table, name) for name in inner]
@@ -224,7 +232,7 @@ class _Outline:
     def _bodies(self) -> Node | None:
         """Return the bodies.
 
-        They are those that the case names, or rings, cage and balls of its bearing.
+        They are those that the case names, or rings, cage and rolling elements of its bearing.
         """
         if self.is_named("bodies"):
             return self._named("bodies")
@@ -236,9 +244,11 @@ class _Outline:
             node = Node(f"bodies.{body}", title, about(self.root, ("bodies", body)), groups)
             node.children = [self._form(f"elastic.{body}", "Elastic", ("elastic", body))]
             nodes.append(node)
-        balls = [Group("", ("materials",), ("balls",))]
-        nodes.insert(2, Node("bodies.balls", "Balls", "their material; the bearing has number and size", balls))
-        return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, type of the cage", children=nodes)
+        elements = [Group("", ("materials",), ("balls",))]
+        words = "material of balls or rollers; the bearing has number and size"
+        nodes.insert(2, Node("bodies.balls", "Rolling elements", words, elements))
+        words = "rings, rolling elements and cage: masses, materials, type of the cage"
+        return Node("bodies", "Bodies", words, children=nodes)
 
     def _forces(self) -> Node:
         """Return the laws of contacts.
@@ -365,9 +375,8 @@ class _Outline:
             words = (
                 f"{about(self.root, (*bearing, 'forces', element), own=False)}: its own laws before the general ones"
             )
-            roles = [
-                self._role(element, role.name, bearing) for role in MOTION_ROLES.values() if element in role.elements
-            ]
+            like = LIKE.get(element, element)
+            roles = [self._role(element, role.name, bearing) for role in MOTION_ROLES.values() if like in role.elements]
             key = ".".join((*bearing, "forces", element))
             nodes.append(Node(key, title, words, kind="roles", element=element, children=roles))
         return nodes

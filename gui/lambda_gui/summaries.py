@@ -62,13 +62,16 @@ def summary(node: Node, draft: Draft, around: CaseContext) -> str:
     if key == "bodies.cage":
         return _known(draft, around, "bodies", "cage", "type") or "steel-ribbon"
     if key == "bodies.balls":
-        return _balls(around)
+        return _elements(around)
     if key.startswith("bodies."):
         return _mass(draft, around, ("bodies", key.split(".")[1], "mass"))
     if key == "depth":
         return _depth(draft.get("depth") or {})
     if key == "solver":
         return _text(draft.get("solver", "duration")) or "until converged"
+    if key == "bearing.rollers":
+        written = draft.get("bearing", "rollers")
+        return f"{len(written)} set" if isinstance(written, Mapping) and written else ""
     if key in ("bearing.geometry", "bearing.fits", "bearing.temperatures", "lubricant.properties"):
         written = draft.get(*key.split("."))
         return f"{len(written)} set" if isinstance(written, Mapping) and written else "catalogue"[: 9 * ("geo" in key)]
@@ -148,9 +151,14 @@ def _mass(draft: Draft, around: CaseContext, keys: Keys) -> str:
     return f"≈ {float(number):.3g} {unit}"
 
 
-def _balls(around: CaseContext) -> str:
-    count, size = (around.value(("bearing", "geometry", name)) for name in ("ball_count", "ball_diameter"))
-    if count is None or size is None:
+def _elements(around: CaseContext) -> str:
+    """Return number and size of balls or rollers."""
+    balls, rollers = ("geometry", "ball_count", "ball_diameter"), ("rollers", "roller_count", "roller_diameter")
+    for table, *names in (balls, rollers):
+        count, size = (around.value(("bearing", table, name)) for name in names)
+        if count is not None and size is not None:
+            break
+    else:
         return ""
     return f"{'≈ ' if count.status in ESTIMATED else ''}{count.text} x {size.text}"
 

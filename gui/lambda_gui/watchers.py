@@ -33,7 +33,7 @@ def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Wid
     kind = node.section.installed if node.section is not None else ""
     if not kind:
         return
-    card = next((card for card in api.watchers(kind) if card.name == name), None)
+    card = next((card for card in api.plugin_parts(kind) if card.name == name), None)
     about = f"no package that is installed brings it: {name}" if card is None else f"{card.title}\n{card.reference}"
     if card is not None:
         about += f"\nfrom {card.distribution}"
@@ -61,7 +61,7 @@ def new_watchers(node: Node) -> Iterator[Widget]:
     assert what is not None
     assert what.installed
     used = [child.title for child in node.children]
-    cards = [card for card in api.watchers(what.installed) if card.name not in used]
+    cards = [card for card in api.plugin_parts(what.installed) if card.name not in used]
     for card in cards:
         yield Button(f"add {card.name}", id=f"new-{card.name.replace(':', '--')}", name=card.name, compact=True)
         yield Static(card.title, classes="about", markup=False)

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Literal
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.units import Angle, Length, SmallLength
 from lambda_core.elements.roller.slices import SLICES
+
+# Options that each profile of the program takes; the others are refused.
+PROFILE_OPTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType({
+    "iso": (),
+    "logarithmic": ("profile_scale", "profile_length"),
+    "crowned": ("profile_radius",),
+    "two-radii": ("profile_length", "profile_radius", "profile_middle_radius"),
+    "tabulated": ("profile_points",),
+    "none": (),
+})  # fmt: skip
 
 
 class InlineRollers(Section):

@@ -7,7 +7,7 @@ carry the signal's own quantity, so that a force cannot ramp up to a speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
@@ -20,6 +20,11 @@ from lambda_core.domain.units import Angle, Frequency, Quantity, Time
 V = TypeVar("V")
 _MOST_TERMS = 1000  # of a sum: each is evaluated at every step
 SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "law", "sum")
+
+
+def is_signal(table: Mapping[str, Any]) -> bool:
+    """Tell whether a written table is a time function."""
+    return table.get("kind") in SIGNAL_KINDS
 
 
 class TimeTable(Section):

@@ -10,6 +10,7 @@ from pydantic import PrivateAttr, ValidationError, model_validator
 
 from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.salvage import InvalidCase, StandIns, invalid_case
+from lambda_core.case.signals import is_signal
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.inline_laws import named, packed, unpack
 
@@ -126,14 +127,14 @@ def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folde
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Merge tables key by key.
 
-    None removes a key, a table with a ``kind`` replaces completely.
+    None removes a key, a time function replaces completely.
     """
     result = dict(base)
     for key, value in changes.items():
         old = result.get(key)
         if value is None:
             result.pop(key, None)
-        elif isinstance(value, Mapping) and isinstance(old, Mapping) and "kind" not in value:
+        elif isinstance(value, Mapping) and isinstance(old, Mapping) and not is_signal(value):
             result[key] = merged(old, value)
         elif isinstance(value, Mapping):
             result[key] = merged({}, value)

@@ -15,10 +15,18 @@ if TYPE_CHECKING:
     from lambda_core.discovery.hookspecs import hookimpl
     from lambda_core.discovery.local_files import guests
     from lambda_core.discovery.manager import as_guests_of, built_in, registry, switch_off, use_plugin
-    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugins, watchers
+    from lambda_core.discovery.packages import new_plugin, plugin_faults, plugin_model, plugin_parts, plugins
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.shown import data_of, view_of
-    from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict, chosen_others, split_label
+    from lambda_core.discovery.survey import (
+        CheckCard,
+        ModelCard,
+        NoteCard,
+        PartCard,
+        Verdict,
+        chosen_others,
+        split_label,
+    )
 
 (_HOME,) = lazy_names(__file__)
 __all__ = sorted(_HOME)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from typing import Literal
 
-    from lambda_core.discovery.survey import FaultCard, Inventory, ModelCard, WatcherCard
+    from lambda_core.discovery.registry import OtherKind
+    from lambda_core.discovery.survey import FaultCard, Inventory, ModelCard, PartCard
 
 
 def plugins() -> Inventory:
@@ -26,22 +26,22 @@ def plugins() -> Inventory:
     return inventory(registry())
 
 
-def watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
-    """Return every installed observer, or event, with its parameters.
+def plugin_parts(kind: OtherKind) -> list[PartCard]:
+    """Return everything installed of one kind, with its parameters.
 
     Parameters
     ----------
     kind : str
-        "observer" or "event".
+        "method", "view", "observer", "event", "section" or "profile".
 
     Returns
     -------
-    list of WatcherCard
+    list of PartCard
     """
     from lambda_core.discovery.manager import registry
-    from lambda_core.discovery.survey import watcher_cards
+    from lambda_core.discovery.survey import part_cards
 
-    return watcher_cards(registry(), kind)
+    return part_cards(registry(), kind)
 
 
 def plugin_model(label: str) -> ModelCard:

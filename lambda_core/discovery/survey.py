@@ -13,13 +13,14 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from lambda_core.case.cards import FieldCard, field_card
-from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.registry import OtherKind, Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
 from lambda_core.domain.installed import COMMANDS, in_use, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
+from lambda_core.laws.parameter import NoParameters
 from lambda_core.laws.state import ROLE as STATES
 
 Kind = Literal["model", "method", "view", "observer", "event", "section", "profile", "data", "command"]
@@ -52,10 +53,11 @@ class ModelCard(BaseModel):
     reads: list[str] = []  # states of the contact that it reads
 
 
-class WatcherCard(BaseModel):
-    """One observer or event and its parameters."""
+class PartCard(BaseModel):
+    """What a plugin brings besides laws, with its parameters."""
 
     version: int = 1  # of this form
+    kind: OtherKind
     name: str
     title: str
     distribution: str
@@ -154,16 +156,21 @@ def inventory(registry: Registry) -> Inventory:
     return Inventory(items=items, faults=faults, notes=notes)
 
 
-def watcher_cards(registry: Registry, kind: Literal["observer", "event"]) -> list[WatcherCard]:
-    """Return every observer, or every event, that is installed."""
-    found = registry.observers if kind == "observer" else registry.events
-    return [
-        WatcherCard(
-            name=item.name, title=item.title, distribution=registry.origin(kind, item.name), reference=item.reference,
-            parameters=[field_card(item.parameters, name) for name in item.parameters.model_fields],
-        )
-        for item in found.values()
-    ]  # fmt: skip
+def part_cards(registry: Registry, kind: OtherKind) -> list[PartCard]:
+    """Return everything installed of one kind.
+
+    Kinds other than laws; options are the parameters of a view.
+    """
+    found = []
+    for item in registry.by_kind()[kind].values():
+        parameters = getattr(item, "parameters", getattr(item, "options", NoParameters))
+        found.append(
+            PartCard(
+                kind=kind, name=item.name, title=item.title, distribution=registry.origin(kind, item.name),
+                reference=item.reference, parameters=[field_card(parameters, name) for name in parameters.model_fields],
+            )
+        )  # fmt: skip
+    return found
 
 
 def model_card(registry: Registry, label: str) -> ModelCard:
@@ -297,7 +304,7 @@ def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str
 def chosen_others(registry: Registry, wanted: Sequence[str]) -> list[tuple[str, str]]:
     """Return kind and name of other chosen entries.
 
-    They are methods, views, observers, events and sections.
+    They are methods, views, observers, events, sections and profiles.
     """
     return [pair for pair in _chosen(registry, wanted) if pair[0] not in ROLES]
 

@@ -31,6 +31,15 @@ def members(annotation: Any) -> Iterator[type[BaseModel]]:
         yield from members(arguments[1])
 
 
+def is_time_function(table: type[BaseModel]) -> bool:
+    """Tell whether a table is a kind of time function.
+
+    Its kind is a tag that is always written; the kind of `bearing.rollers` is an option.
+    """
+    kind = table.model_fields.get("kind")
+    return kind is not None and kind.is_required()
+
+
 def is_tag(part: object) -> bool:
     """Tell whether a path's part is a union tag.
 
@@ -88,7 +97,7 @@ def option_paths(root: type[BaseModel]) -> tuple[str, ...]:
     def walk(model: type[BaseModel], prefix: str) -> None:
         for name, info in model.model_fields.items():
             path = f"{prefix}{name}"
-            tables = [t for t in members(info.annotation) if "kind" not in t.model_fields]
+            tables = [t for t in members(info.annotation) if not is_time_function(t)]
             if tables and get_origin(info.annotation) is not dict:
                 walk(tables[0], f"{path}.")
             else:

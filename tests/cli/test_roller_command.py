@@ -546,3 +546,10 @@ def test_an_elastic_support_of_the_outer_ring_gives_way(held: str, tmp_path: Pat
     there = 6000.0 - 20.0 * rigid.inner_ring_displacement_um[2]  # the spring and the rollers together
     soft = api.quasistatic(path, [*options, f"loads.outer_ring.force_z={there!r} N"])
     assert soft.max_load_N == pytest.approx(rigid.max_load_N, rel=1e-6)
+
+
+def test_a_kind_that_is_set_keeps_the_other_values_of_rollers(tmp_path: Path) -> None:
+    path = case(tmp_path, "NCF 3008", more="[bearing.rollers]\nroller_count = 18\n")
+    rollers = api.check(path, ["bearing.rollers.kind=NJ", "depth.cage=true"]).rollers
+    assert rollers is not None
+    assert (rollers.kind, rollers.count) == ("NJ", 18)

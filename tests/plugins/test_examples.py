@@ -128,7 +128,8 @@ def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path:
     assert file.code == 0, file.err
     assert file.out.startswith("force_element/own-spring   own.py")
     observer = site.program("plugins", "show", "sliding-wear")
-    assert observer.out.startswith("sliding-wear brings no law")
+    assert observer.out.startswith("observer/sliding-wear   sliding-wear")
+    assert "reference" in observer.out
 
 
 @pytest.mark.full

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.discovery import local_files, manager
@@ -122,3 +123,21 @@ def test_a_profile_needs_a_free_name_a_version_and_a_reference() -> None:
         (RollerProfile("mine", "", flat, " ", profile_api=1), "has no reference"),
     ):
         assert words in Collection().take([Entry("lambda_profiles", "guest 1.0", item)])
+
+
+def test_plugins_show_and_check_know_a_profile(quartic: None, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("quartic.py", "profile/quartic", "quartic"):
+        assert main(["plugins", "show", name if name != "quartic.py" else str(known_file())]) == 0
+        out = capsys.readouterr().out
+        assert out.startswith("profile/quartic   quartic.py")
+        assert "drop at the end" in out
+    assert main(["plugins", "check", "profile/quartic"]) == 0
+    assert "ok  profile/quartic" in capsys.readouterr().out
+    (card,) = api.plugin_parts("profile")
+    assert (card.kind, card.parameters[0].default) == ("profile", "8 um")
+
+
+def known_file() -> Path:
+    """Return the file in use."""
+    (path,) = local_files._texts
+    return Path(path)

@@ -192,7 +192,7 @@ def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) 
         gap = show(chord - geometry.ball_diameter, "small_length", 4)
         ledger.problem(
             "bodies.cage.pocket_clearance",
-            f"leaves no bars between the pockets: must be below {gap}, the gap between balls",
+            f"leaves no bars between the pockets: must be below {gap}, the gap between rolling elements",
         )
     if land > pocket:
         ledger.assume(

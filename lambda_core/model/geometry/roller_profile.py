@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any, get_args
 
-from lambda_core.case.rollers import InlineRollers
+from lambda_core.case.rollers import PROFILE_OPTIONS, InlineRollers
 from lambda_core.catalogue.protocol import RollerRow
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
@@ -15,14 +15,7 @@ from lambda_core.model.laws.given_parameters import given_parameters, record_par
 from lambda_core.model.ledger import Ledger
 from lambda_core.views.roller_profile import RollerShape, profile_points
 
-# Options that a profile needs, and those that it may have; the others are refused.
-_NEEDS: Mapping[str, tuple[str, ...]] = {
-    "logarithmic": ("profile_scale", "profile_length"),
-    "crowned": ("profile_radius",),
-    "two-radii": ("profile_length", "profile_radius"),
-    "tabulated": ("profile_points",),
-}
-_MAY: Mapping[str, tuple[str, ...]] = {"two-radii": ("profile_middle_radius",)}
+_MAY_BE_ABSENT = "profile_middle_radius"
 _PARAMETERS = "profile_parameters"  # of a plugin's
 _OPTIONS = (
     *("profile_scale", "profile_length", "profile_radius", "profile_middle_radius", "profile_points"),
@@ -42,9 +35,9 @@ def profile_of(rollers: InlineRollers, row: RollerRow | None, roller: RollerShap
     if row is not None and rollers.profile in (None, "logarithmic"):
         known = {"profile_scale": row.profile_scale, "profile_length": row.profile_length}
         given = {name: value.value for name, value in known.items() if value is not None} | written
-    name = rollers.profile or ("logarithmic" if {*_NEEDS["logarithmic"]} <= {*given} else "iso")
-    needs = _NEEDS.get(name, ())
-    takes = (*needs, *_MAY.get(name, ()))
+    name = rollers.profile or ("logarithmic" if {*PROFILE_OPTIONS["logarithmic"]} <= {*given} else "iso")
+    takes = PROFILE_OPTIONS[name]
+    needs = [option for option in takes if option != _MAY_BE_ABSENT]
     if missing := [option for option in needs if option not in given]:
         ledger.problem("bearing.rollers.profile", f"{name} needs {' and '.join(needs)}; {missing[0]} is absent")
         return {}
