@@ -54,10 +54,10 @@ class ModelCard(BaseModel):
 
 
 class PartCard(BaseModel):
-    """What a plugin brings besides laws, with its parameters."""
+    """Part of a plugin besides laws, with its parameters."""
 
     version: int = 1  # of this form
-    kind: OtherKind
+    kind: OtherKind  # "view", "profile", ...
     name: str
     title: str
     distribution: str
