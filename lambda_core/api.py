@@ -68,7 +68,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
         switch_off,
     )
     from lambda_core.elements.ball.geometry import Geometry
-    from lambda_core.export.report.api import machine_pictures, view_all, view_stem
+    from lambda_core.export.report.api import check_page, machine_pictures, view_all, view_stem
     from lambda_core.export.stiffness import stiffness_target
     from lambda_core.fitting.api import add_measured, fitted_case, measured_series, with_measured
     from lambda_core.fitting.report import FitReport

@@ -77,7 +77,7 @@ def fit(
     if out is not None:
         check_new(out, force)
     if report is not None:
-        check_new(report, force)
+        api.check_page(report, overwrite=force)
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:

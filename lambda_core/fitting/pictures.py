@@ -28,7 +28,7 @@ def fit_pictures(report: FitReport) -> list[ViewData]:
     names = [name for name in report.points[0].conditions if _moves(report, name)]
     residuals = tuple(_residuals(report, name) for name in names)
     source = f"{report.title}, {report.file}"
-    note = "bands: 95 % of the prediction; points: measured values"
+    note = "bands: 95 % of the prediction, laws taken as exact; points: measured values"
     pictures = [ViewData("fit", "Measured and predicted values", source, values, 1, (note, report.sentence))]
     if residuals:
         note = "measured less predicted value over its standard deviation; a pattern means a wrong or missing law"

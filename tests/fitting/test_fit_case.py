@@ -57,6 +57,21 @@ def report(rows: list[str]) -> api.FitReport:
     return api.fit(CASE, measured, ["loss_factor", "tau_eyring"])
 
 
+def test_a_page_that_nothing_can_print_is_refused_before_the_fit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Refuse a PDF without a browser and WeasyPrint.
+
+    The fit was computed first.
+    """
+    monkeypatch.setattr("lambda_core.export.report.pdf.find_spec", lambda name: None)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("lambda_core.api.fit", lambda *given, **more: pytest.fail("fitted"))
+    page = str(tmp_path / "fit.pdf")
+    assert main(["fit", CASE, str(tmp_path / "rig.csv"), "--vary", "loss_factor", "-q", "--report", page]) == 2
+    assert "a PDF needs a browser on PATH" in capsys.readouterr().err
+
+
 def test_true_values_are_found(report: api.FitReport) -> None:
     loss, stress = report.parameters
     assert loss.value == pytest.approx(0.04, rel=1e-3)

@@ -306,7 +306,7 @@ def report(
         written.
     """
     from lambda_core.export.report.page import comparison_tables, document, write_page
-    from lambda_core.export.report.pdf import check_printer, write_pdf
+    from lambda_core.export.report.pdf import write_pdf
     from lambda_core.fitting.report import FitReport
     from lambda_core.results.reader import Result
 
@@ -318,12 +318,7 @@ def report(
     stem = f"{fits[0].case}-fit" if fits else view_stem(stored, bearing)
     path = Path(out) if out is not None else Path(f"{stem}.html")
     cover = _cover(project, author, appendices, units)
-    _refuse_existing(path, overwrite)
-    is_pdf = path.suffix.lower() == ".pdf"
-    if not is_pdf and path.suffix.lower() not in _PAGES:
-        raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
-    if is_pdf:
-        check_printer()
+    is_pdf = check_page(path, overwrite=overwrite)
     chapters = [_chapter(one, bearing, cover) for one in sources]
     runs = [
         one
@@ -337,6 +332,30 @@ def report(
         compared = comparison_tables(side_by_side(runs), cover.units)
     text = document(chapters, cover, compared)
     return write_pdf(text, path) if is_pdf else write_page(text, path)
+
+
+def check_page(path: Path, *, overwrite: bool) -> bool:
+    """Refuse a page that cannot be written, before the work.
+
+    Returns
+    -------
+    bool
+        Whether it is a PDF.
+
+    Raises
+    ------
+    UsageError
+        When it exists, its folder takes no file, its ending is unknown, or nothing can print a PDF.
+    """
+    from lambda_core.export.report.pdf import check_printer
+
+    _refuse_existing(path, overwrite)
+    ending = path.suffix.lower()
+    if ending == ".pdf":
+        check_printer()
+    elif ending not in _PAGES:
+        raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
+    return ending == ".pdf"
 
 
 def _chapter(source: str | PathLike[str] | FitReport, bearing: str | None, cover: Cover) -> Chapter:

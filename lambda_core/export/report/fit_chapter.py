@@ -77,7 +77,8 @@ def _correlations(report: FitReport) -> Table:
 
 
 def _points(report: FitReport, units: UnitSystem) -> Table:
-    head = ("line", "quantity", "measured", "predicted", "95 % band", "unit", "residual over error", "from all others")
+    band = "95 % band with errors of laws"
+    head = ("line", "quantity", "measured", "predicted", band, "unit", "residual over error", "from all others")
     rows = [
         (
             str(p.line), p.quantity, *(f"{units.value(value, p.unit):.4g}" for value in (p.measured, p.predicted)),
@@ -91,7 +92,7 @@ def _points(report: FitReport, units: UnitSystem) -> Table:
 
 
 def _unseen(report: FitReport, units: UnitSystem) -> Table:
-    head = ("line", "quantity", "measured", "predicted", "95 % band", "unit", "")
+    head = ("line", "quantity", "measured", "predicted", "95 % band with errors of laws", "unit", "")
     rows = [
         (
             str(p.line), p.quantity, *(f"{units.value(value, p.unit):.4g}" for value in (p.measured, p.predicted)),

@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+from lambda_plugins.views.frame import has_legend_beside
 from lambda_plugins.views.panels import draw_panel
 from lambda_plugins.views.style import INK, RC, SOFT
 from lambda_plugins.views.verbatim import verbatim
@@ -65,8 +66,9 @@ def draw(data: ViewData) -> Figure:
     data = verbatim(data)
     with matplotlib.rc_context(RC):
         columns = min(data.columns, len(data.panels))
-        rows = -(-len(data.panels) // columns)
-        grid = [list(data.panels[r * columns : (r + 1) * columns]) for r in range(rows)]
+        legends = _legends(data.panels)
+        grid = _grid(data.panels, columns, legends)
+        columns = max(map(len, grid))
         widths = [max(_width(line[c], columns) for line in grid if c < len(line)) for c in range(columns)]
         heights = [max(_HEIGHTS[panel.shape] for panel in line) for line in grid]
         width = sum(widths)
@@ -79,10 +81,9 @@ def draw(data: ViewData) -> Figure:
         figure.set_layout_engine(
             "constrained", rect=(0.01, foot / height, 0.98, 1.0 - (head + foot) / height), w_pad=0.12, h_pad=0.1
         )
-        spec = figure.add_gridspec(rows, columns, width_ratios=widths, height_ratios=heights)
-        legends = _legends(data.panels)
-        for number, panel in enumerate(data.panels):
-            r, c = divmod(number, columns)
+        spec = figure.add_gridspec(len(grid), columns, width_ratios=widths, height_ratios=heights)
+        places = [(r, c) for r, line in enumerate(grid) for c in range(len(line))]
+        for number, (panel, (r, c)) in enumerate(zip(data.panels, places, strict=True)):
             place = spec[r, :] if len(grid[r]) == 1 else spec[r, c]  # a panel alone in its line takes all of it
             axes: Any = figure.add_subplot(place, projection="polar" if panel.shape == "polar" else None)
             draw_panel(axes, panel, legend=number in legends)
@@ -92,6 +93,22 @@ def draw(data: ViewData) -> Figure:
         for i, note in enumerate(notes):
             figure.text(0.15 / width, (foot - 0.08 - _LINE * i) / height, note, va="top", fontsize=_NOTE, color=SOFT)
     return figure
+
+
+def _grid(panels: tuple[Panel, ...], columns: int, legends: set[int]) -> list[list[Panel]]:
+    """Return the panels line by line.
+
+    A panel with a legend beside it is alone in its line: the legend would leave its neighbours no room.
+    """
+    grid: list[list[Panel]] = [[]]
+    for number, panel in enumerate(panels):
+        is_alone = columns > 1 and number in legends and has_legend_beside(panel)
+        if grid[-1] and (is_alone or len(grid[-1]) == columns):
+            grid.append([])
+        grid[-1].append(panel)
+        if is_alone:
+            grid.append([])
+    return [line for line in grid if line]
 
 
 def _width(panel: Panel, columns: int) -> float:

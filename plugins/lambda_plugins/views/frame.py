@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ from matplotlib.transforms import ScaledTranslation
 from lambda_plugins.views.style import SOFT
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from lambda_core.plugins import Axis, Mark, Panel
 
 LABEL = 32  # characters of a line of a label
@@ -21,6 +24,9 @@ _HEADROOM = 1.06  # above the data, on axes that begin at a given value
 _LEGEND_BELOW = 0.58  # [inch] below the axes: under the numbers and the label
 _DECADES = 100.0  # end over beginning of a logarithmic axis with plain numbers
 _OUTSIDE = 4  # a longer legend goes next to the axes
+_POINTS = 72.0  # of an inch
+_LABEL_HEIGHT, _LABEL_LETTER = 13.0, 5.6  # height of a label of a mark, length of a letter [pt]
+_LOWEST_LABEL = 120.0  # below the top of the axes, where the next label begins at the top again [pt]
 
 
 class Numbers(ScalarFormatter):
@@ -128,16 +134,32 @@ def draw_line(axes: Any, mark: Mark) -> None:
     draw(mark.value, color=SOFT, linewidth=1.1, linestyle=(0, (2, 2)), zorder=2.5)
 
 
-def draw_label(axes: Any, mark: Mark) -> None:
-    """Write what a mark is, where it can be seen."""
-    low, high = axes.get_xlim() if mark.axis == "x" else axes.get_ylim()
-    if not mark.label or not low <= mark.value <= high:
-        return
+def draw_labels(axes: Any, marks: Sequence[Mark]) -> None:
+    """Write what marks are, where they can be seen.
+
+    A label beside a line begins below the one before, where the two lines are closer than a letter is high.
+    """
+    before, down = -math.inf, 0.0
+    for mark in sorted(marks, key=lambda one: one.value):
+        low, high = axes.get_xlim() if mark.axis == "x" else axes.get_ylim()
+        if not mark.label or not low <= mark.value <= high:
+            continue
+        if mark.axis == "x":
+            at = float(axes.transData.transform((mark.value, 1.0))[0]) * _POINTS / axes.figure.dpi
+            down = down if at - before < _LABEL_HEIGHT and down < _LOWEST_LABEL else 0.0
+            _write_label(axes, mark, down)
+            before, down = at, down + _LABEL_LETTER * len(mark.label) + _LABEL_HEIGHT / 2.0
+        else:
+            _write_label(axes, mark, 0.0)
+
+
+def _write_label(axes: Any, mark: Mark, down: float) -> None:
+    """Write a label upon paper, so far below the top."""
     paper = {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
     style = {"fontsize": 9.5, "color": SOFT, "zorder": 6, "textcoords": "offset points", "bbox": paper}
     if mark.axis == "x":
         place, coordinates = (mark.value, 0.985), ("data", "axes fraction")
-        axes.annotate(mark.label, place, (2, 0), coordinates, rotation=90, va="top", ha="left", **style)
+        axes.annotate(mark.label, place, (2, -down), coordinates, rotation=90, va="top", ha="left", **style)
     else:
         place, coordinates = (1.0, mark.value), ("axes fraction", "data")
         axes.annotate(mark.label, place, (4, 0), coordinates, va="center", ha="left", **style)
@@ -145,6 +167,13 @@ def draw_label(axes: Any, mark: Mark) -> None:
 
 def _is_full(panel: Panel) -> bool:
     return panel.shape == "plain" and any(series.kind == "line" and is_restless(series.y) for series in panel.series)
+
+
+def has_legend_beside(panel: Panel) -> bool:
+    """Tell whether the legend stands next to the axes."""
+    named = [series for series in panel.series if not series.unlisted]
+    entries = dict.fromkeys(word for series in named for word in (series.name, series.band) if word)
+    return panel.shape == "plain" and len(entries) > _OUTSIDE
 
 
 def draw_legend(axes: Any, panel: Panel) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, TwoSlopeNorm
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from lambda_plugins.views.frame import LABEL, TITLE, draw_axes, draw_label, draw_legend, draw_line, is_restless
+from lambda_plugins.views.frame import LABEL, TITLE, draw_axes, draw_labels, draw_legend, draw_line, is_restless
 from lambda_plugins.views.style import COLOUR_MAP, INK, SIGNED_MAP, Look, look_of
 
 if TYPE_CHECKING:
@@ -45,8 +45,7 @@ def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
     for mark in panel.marks:
         draw_line(axes, mark)
     draw_axes(axes, panel)
-    for mark in panel.marks:
-        draw_label(axes, mark)
+    draw_labels(axes, panel.marks)
     if panel.title:
         axes.set_title("\n".join(textwrap.fill(line, TITLE) for line in panel.title.splitlines()))
     if legend:

@@ -12,7 +12,7 @@ from pydantic import Field
 from lambda_core.analysis.band.quantities import Condition, Measured, Vocabulary
 from lambda_core.domain.channels import DIMENSIONS
 from lambda_core.domain.errors import UsageError
-from lambda_core.fitting.measurements import read_measurements
+from lambda_core.fitting.measurements import Measurements, read_measurements
 from lambda_core.plugins import (
     Axis,
     FloatArray,
@@ -48,7 +48,9 @@ COLUMNS = Vocabulary(
 class VibrationOptions(Options):
     """Measured quantity and place of a sensor."""
 
-    motion: Literal["displacement", "velocity", "acceleration"] = Field("acceleration", description="what is shown")
+    motion: Literal["displacement", "velocity", "acceleration"] = Field(
+        "acceleration", description="what is shown; by default the motion that was measured"
+    )
     place: Literal["housing", "shaft"] = Field("shaft", description="outer ring with its housing, or inner ring")
     axis: Literal["x", "y", "z"] = Field("z", description="along the shaft, horizontal, vertical")
     above: float = Field(
@@ -93,9 +95,11 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
     It shows displacement, velocity or acceleration over time, its spectrum and that of its envelope.
     """
     span = averaging(run)
+    data = read_measurements(Path(options.measured), COLUMNS) if options.measured else None
+    options = _of_measured(options, data)
     unit, _ = _MOTIONS[options.motion]
     own = _computed(run, options, span.rows(run["time"]))
-    signals = [own, _read(options)] if options.measured else [own]
+    signals = [own] if data is None else [own, _signal(data, options.motion)]
     signals.sort(key=lambda one: -float(np.ptp(one.values)))  # the smaller one is drawn last, upon the larger
     marks = speeds(run, span).frequencies()
     highest = max(marks.values())
@@ -132,7 +136,8 @@ def _computed(run: RunData, options: VibrationOptions, rows: slice) -> _Signal:
     time, place = run["time"][rows], run["body_position"][rows, body, k]
     if place.size < 3 or np.ptp(place) <= _STILL:
         remedy = (
-            "let it move, for example with outer_ring.z = a stiffness and damping"
+            f'let it move, for example with bodies.outer_ring.{options.axis} = {{ mode = "free", stiffness = '
+            '"100 N/um", damping = "2000 N s/m" }'
             if options.place == "housing"
             else "choose another axis"
         )
@@ -146,13 +151,22 @@ def _computed(run: RunData, options: VibrationOptions, rows: slice) -> _Signal:
     return _Signal("computed", time, values / _MOTIONS[options.motion][1], role)
 
 
-def _read(options: VibrationOptions) -> _Signal:
+def _of_measured(options: VibrationOptions, data: Measurements | None) -> VibrationOptions:
+    """Return options that show what was measured.
+
+    A chosen motion stays, and so does the default one where it was measured.
+    """
+    if data is None or "motion" in options.model_fields_set or options.motion in data.measured:
+        return options
+    return options.model_copy(update={"motion": next(iter(data.measured))})
+
+
+def _signal(data: Measurements, motion: str) -> _Signal:
     """Return a measured signal, from time 0 on."""
-    data = read_measurements(Path(options.measured), COLUMNS)
-    if options.motion not in data.measured or "time" not in data.conditions:
-        unit = _MOTIONS[options.motion][0]
-        raise UsageError(f'{data.name}: the columns "time [s]" and "{options.motion} [{unit}]" are needed')
-    time, values = data.conditions["time"], data.measured[options.motion]
+    if motion not in data.measured or "time" not in data.conditions:
+        unit = _MOTIONS[motion][0]
+        raise UsageError(f'{data.name}: the columns "time [s]" and "{motion} [{unit}]" are needed')
+    time, values = data.conditions["time"], data.measured[motion]
     steps = np.diff(time)
     if time.size < 2 or not np.all(steps > 0.0) or np.ptp(steps) > 0.01 * steps.mean():
         usual = np.median(steps) if steps.size else 0.0
@@ -160,7 +174,7 @@ def _read(options: VibrationOptions) -> _Signal:
         raise UsageError(f"{data.name} line {line}: the times of a signal must be evenly spaced and rise")
     if not np.all(np.isfinite(values)):
         line = data.lines[int(np.argmin(np.isfinite(values)))]
-        raise UsageError(f"{data.name} line {line}: {options.motion} is empty: a signal has a value at every time")
+        raise UsageError(f"{data.name} line {line}: {motion} is empty: a signal has a value at every time")
     if values.size < SHORTEST_SPECTRUM:
         raise UsageError(f"{data.name}: {values.size} samples are too few for a spectrum: {SHORTEST_SPECTRUM} at least")
     return _Signal(data.name, time - time[0], values, "measured")
