@@ -28,7 +28,7 @@ _CAGED = ("bearing.rollers.kind=NJ", "bearing.rollers.roller_count=18", "depth.c
 
 @dataclass(frozen=True)
 class Row:
-    """One run: bearing, loads, speed, and what else the case changes."""
+    """One run of a bearing."""
 
     designation: str
     radial: str

@@ -141,12 +141,12 @@ def show(
     """
     from lambda_db.presentation import find
 
-    from lambda_core.api import BearingRow, LubricantRow
+    from lambda_core.api import BearingRow, LubricantRow, RollerRow
 
     name = " ".join(words)
     with _opened() as (catalogue, models):
         row = find(catalogue, name, maker)
-        if isinstance(row, BearingRow):
+        if isinstance(row, BearingRow | RollerRow):
             show_bearing(catalogue, name, row, json)
         elif isinstance(row, LubricantRow):
             show_lubricant(row, models, temperature, pressure, rheology, json)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from lambda_db.presentation import AnyBearing
     from rich.table import Table
 
-    from lambda_core.api import BearingRow, CageRow, LubricantRow, MaterialRow, Registry
+    from lambda_core.api import CageRow, LubricantRow, MaterialRow, Registry
 
 
 def print_json(**data: object) -> None:
@@ -96,13 +96,15 @@ def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
         _print("what each is: lambda-bearing db show NAME")
 
 
-def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool) -> None:
+def show_bearing(catalogue: SqlCatalogue, name: str, row: AnyBearing, json: bool) -> None:
     """Print a bearing with sources and candidate designs.
 
     Print also clearance classes, suffixes and a section to scale.
     """
     from lambda_db.drawing import cross_section
     from lambda_db.presentation import candidate_lines, clearance_lines, suffix_lines, values_of
+
+    from lambda_core import api
 
     suffixes = suffix_lines(catalogue, name)
     values, candidates, clearances = values_of(row), candidate_lines(row), clearance_lines(catalogue, row)
@@ -114,7 +116,7 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
             series=row.series,
             bearing_kind=row.kind,
             layer=row.layer,
-            rating_type=row.rating_type,
+            rating_type=getattr(row, "rating_type", ""),
             values={value.pop("name"): value for value in values},
             candidates=candidates,
             clearances=clearances,
@@ -122,7 +124,8 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
         )
         return
     whose = "" if row.layer == "core" else f"   ({row.layer} row)"
-    about = f"{row.kind}   series {row.series or '-'}   ratings {row.rating_type or '-'}{whose}"
+    ratings = getattr(row, "rating_type", "")
+    about = f"{row.kind}   series {row.series or '-'}   ratings {ratings or '-'}{whose}"
     _print(f"{row.designation}  {row.maker}   {about}")
     _print("")
     _print_values(values)
@@ -139,6 +142,8 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
     if row.contact_angle is None:
         classes = "   ".join(f"{c['class']} {c['minimum_um']:g}-{c['maximum_um']:g}" for c in clearances)
         _print(f"radial internal clearance, um   {classes or 'not tabulated for this bore'}")
+    elif isinstance(row, api.RollerRow):
+        _print("its clearance is set when mounting; a pair is preloaded on a shaft: docs/shaft.md")
     else:
         _print("its clearance follows from the contact angle; a pair is preloaded on a shaft: docs/shaft.md")
     for line in suffixes:

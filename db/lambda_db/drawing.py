@@ -10,14 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from lambda_core.catalogue.protocol import BearingRow, Value
+from lambda_core.catalogue.protocol import BearingRow, RollerRow, Value
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.kinds import kinds
 from lambda_core.elements.ball.raceways import row_places
 from lambda_core.model.geometry.resolve_geometry import with_clearance
 from lambda_core.model.geometry.ring_profile import profiles
+from lambda_db.roller_drawing import AIR, BALL, RING, RollerSection, section_of_rollers
 
-RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)
 _SHOULDER = 0.25 * (2.0 - 1.21)
 _CELL_ASPECT = 2.0
@@ -55,9 +55,19 @@ class Section:
         return _mm(self.geometry.pitch_diameter)
 
     @cached_property
-    def ball(self) -> float:
+    def element(self) -> float:
         """Ball diameter [mm]."""
         return _mm(self.geometry.ball_diameter)
+
+    @property
+    def angle(self) -> float:
+        """Contact angle without load [rad]."""
+        return self.geometry.contact_angle or self.geometry.resting_angle
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        return self.geometry.clearance
 
     @cached_property
     def race_inner(self) -> float:
@@ -74,7 +84,7 @@ class Section:
 
     def cell(self, x: float, r: float) -> str:
         """Return what fills the point."""
-        if any((x - place) ** 2 + (r - 0.5 * self.pitch) ** 2 <= 0.25 * self.ball**2 for place in self._places):
+        if any((x - place) ** 2 + (r - 0.5 * self.pitch) ** 2 <= 0.25 * self.element**2 for place in self._places):
             return BALL
         if self._chamfered(x, r):
             return AIR
@@ -86,14 +96,14 @@ class Section:
 
         The line joins the contacts of a ball; the point lies within `half` of it [mm].
         """
-        angle = self.geometry.contact_angle or self.geometry.resting_angle
+        angle = self.angle
         if not angle:
             return False
         for place in self._places:
             is_back_to_back = self.geometry.arrangement == "O"
             leans = -1.0 if len(self._places) == 1 or (place < 0.0) == is_back_to_back else 1.0
             away = (x - place) * math.cos(angle) + leans * (r - 0.5 * self.pitch) * math.sin(angle)
-            if abs(x - place) <= 0.5 * self.ball and abs(away) < half:
+            if abs(x - place) <= 0.5 * self.element and abs(away) < half:
                 return True
         return False
 
@@ -109,6 +119,9 @@ class Section:
         axial = abs(x) - (0.5 * self.width - self.chamfer)
         radial = max(0.5 * self.bore + self.chamfer - r, r - (0.5 * self.outside - self.chamfer))
         return axial > 0.0 and radial > 0.0 and axial * axial + radial * radial > self.chamfer**2
+
+
+AnySection = Section | RollerSection
 
 
 def _mm(length: float) -> float:
@@ -169,14 +182,14 @@ def _value(known: Value | None, otherwise: float = math.nan) -> float:
     return otherwise if known is None else known.value
 
 
-def cross_section(row: BearingRow, height: int = 17) -> str:
+def cross_section(row: BearingRow | RollerRow, height: int = 17) -> str:
     """Draw the upper half-section with its diameters at the side.
 
     Parameters
     ----------
-    row : BearingRow
-        Needs ball, pitch and groove radii; shoulders that are not printed are drawn at D_1 - d_1 = 1.21 D_w, those
-        of angular contact high on the loaded side and down to the raceway on the other.
+    row : BearingRow or RollerRow
+        One of balls needs ball, pitch and groove radii; shoulders that are not printed are drawn at
+        D_1 - d_1 = 1.21 D_w, those of angular contact high on the loaded side and down to the raceway on the other.
     height : int
         Lines for the radial height of the section.
 
@@ -185,7 +198,7 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
     str
         Lines of text; a sentence where the inner geometry is not known.
     """
-    section = section_of(row)
+    section = section_of_rollers(row) if isinstance(row, RollerRow) else section_of(row)
     if section is None:
         return "inner geometry not known: no cross-section"
     high = 0.5 * (section.outside - section.bore)
@@ -197,10 +210,11 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
         r = 0.5 * section.outside - (i + 0.5) * step_r
         cells = "".join(section.cell((j + 0.5) * step_x - 0.5 * section.width, r) for j in range(columns))
         lines.append(cells)
+    element = "roller" if isinstance(row, RollerRow) else "ball"
     marks = {
         0: f"D  {section.outside:g} mm",
         _line(section.race_outer, section, height): f"raceway {section.race_outer:.6g} mm",
-        _line(section.pitch, section, height): f"pitch {section.pitch:.6g} mm, ball {section.ball:.6g} mm",
+        _line(section.pitch, section, height): f"pitch {section.pitch:.6g} mm, {element} {section.element:.6g} mm",
         _line(section.race_inner, section, height): f"raceway {section.race_inner:.6g} mm",
         height - 1: f"d  {section.bore:g} mm",
     }
@@ -208,6 +222,6 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
     return "\n".join([*drawn, f"B  {section.width:g} mm".center(columns).rstrip()])
 
 
-def _line(diameter: float, section: Section, height: int) -> int:
+def _line(diameter: float, section: AnySection, height: int) -> int:
     high = 0.5 * (section.outside - section.bore)
     return min(height - 2, max(1, int((0.5 * (section.outside - diameter)) / high * height)))

@@ -6,6 +6,8 @@ Each value has its source and grade.
 from __future__ import annotations
 
 import math
+import operator
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeVar
 
@@ -13,13 +15,22 @@ from pydantic import BaseModel
 
 from lambda_core.catalogue.designation import designated, read_designation
 from lambda_core.catalogue.protocol import BearingRow, CageRow, LubricantRow, MaterialRow, RollerRow, Value
+from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, nearest, unknown_name
 from lambda_core.domain.units import from_si, parse
+from lambda_core.elements.roller.roller_bearing import family_of
+from lambda_core.elements.roller.roller_clearance import roller_clearance
 from lambda_db.catalogue import SqlCatalogue
+from lambda_db.search import COMPARISON
 from lambda_db.units import PROPERTIES
 
 AnyBearing = BearingRow | RollerRow
 
+# Keys of a search -> the numbers of a row's summary
+_KEYS = {
+    "d": "bore_mm", "bore": "bore_mm", "D": "outside_mm", "outside": "outside_mm", "B": "width_mm", "width": "width_mm",
+    "C": "C_kN", "C0": "C0_kN", "Z": "roller_count", "Dw": "roller_diameter_mm", "alpha": "contact_angle_deg",
+}  # fmt: skip
 _CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
 # Field of a row -> (quantity, unit) in which it is shown; the rest are plain numbers.
@@ -33,6 +44,9 @@ _SHOWN: dict[str, tuple[str, str]] = {
             "ball_diameter",
             "roller_diameter",
             "roller_length",
+            "effective_length",
+            "rib_height",
+            "profile_length",
             "pitch_diameter",
             "race_diameter_inner",
             "race_diameter_outer",
@@ -77,7 +91,7 @@ def _entry(name: str, value: Value) -> dict[str, Any]:
     number, unit = _shown(name, value.value)
     return {
         "name": name,
-        "value": int(number) if name == "ball_count" else number,
+        "value": int(number) if name in ("ball_count", "roller_count") else number,
         "unit": unit,
         "status": value.status,
         "grade": value.grade,
@@ -114,8 +128,10 @@ def parameters_of(row: LubricantRow) -> list[dict[str, Any]]:
     ]
 
 
-def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
-    """Return candidate designs in mm and degrees."""
+def candidate_lines(row: AnyBearing) -> list[dict[str, Any]]:
+    """Return candidate designs in mm and degrees; rollers have none."""
+    if isinstance(row, RollerRow):
+        return []
     return [
         {
             "ball_count": design.ball_count,
@@ -129,7 +145,7 @@ def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
     ]
 
 
-def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, Any]]:
+def clearance_lines(catalogue: SqlCatalogue, row: AnyBearing) -> list[dict[str, Any]]:
     """Return the clearance classes of the bearing's bore.
 
     They are in um; only bearings of radial contact have any.
@@ -139,28 +155,53 @@ def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, 
         return lines
     for name in _CLASSES:
         try:
-            limits = catalogue.clearance(row.bore_diameter.value, name)
-        except CatalogueError:
+            ends, grade, source = _limits(catalogue, row, name)
+        except (CatalogueError, ValueError):
             continue  # not every class goes to every bore
-        low, high = (float(f"{1e6 * limit:.9g}") for limit in (limits.minimum, limits.maximum))
-        lines.append(
-            {"class": name, "minimum_um": low, "maximum_um": high, "grade": limits.grade, "source": limits.source}
-        )
+        low, high = (float(f"{1e6 * limit:.9g}") for limit in ends)
+        lines.append({"class": name, "minimum_um": low, "maximum_um": high, "grade": grade, "source": source})
     return lines
+
+
+def _limits(catalogue: SqlCatalogue, row: AnyBearing, name: str) -> tuple[tuple[float, float], str, str]:
+    """Return a clearance class: limits [m], grade, source."""
+    if isinstance(row, RollerRow):
+        return roller_clearance(row.bore_diameter.value, name), "C", "ISO 5753-1:2009, as remembered"
+    limits = catalogue.clearance(row.bore_diameter.value, name)
+    return (limits.minimum, limits.maximum), limits.grade, limits.source
 
 
 def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
     """Return the roller bearings that match the words.
 
-    Their designation begins with the words; a maker's name may be among them.
+    Every word is a maker, a family, a kind or a series, a comparison such as "d=40", or a dimension; the others
+    together begin the designation.
     """
-    words = text.upper().split()
-    found = []
-    for row in catalogue.rollers():
-        named = "".join(word for word in words if word != row.maker.upper())
-        if named and row.designation.upper().replace(" ", "").startswith(named):
-            found.append(row)
-    return found
+    compared = [match.groups() for word in text.split() if (match := COMPARISON.match(word))]
+    words = [word.upper() for word in text.split() if not COMPARISON.match(word)]
+    return [row for row in catalogue.rollers() if _named(row, words) and all(_holds(row, *one) for one in compared)]
+
+
+def _named(row: RollerRow, words: Sequence[str]) -> bool:
+    """Tell whether the words name a roller bearing."""
+    name = row.designation.upper().replace(" ", "")
+    sizes = {f"{1e3 * size.value:.6g}" for size in (row.bore_diameter, row.outside_diameter, row.width)}
+    known: set[str] = {row.maker.upper(), "ROLLER", "ROLLERS"}
+    for more in (set(), {row.kind.upper(), family_of(row.kind).upper(), row.series.upper()}, sizes):
+        known |= more
+        if name.startswith("".join(word for word in words if word not in known)):
+            return True
+    return False
+
+
+def _holds(row: RollerRow, key: str, sign: str, text: str) -> bool:
+    """Tell whether a comparison holds."""
+    summary = bearing_summary(row)
+    if key in ("series", "maker", "grade"):
+        return str(summary["geometry_grade" if key == "grade" else key]).casefold() == text.casefold()
+    value, number = summary[_KEYS[key]], float(re.sub("[a-z]+$", "", text, flags=re.IGNORECASE))
+    compare = {"=": operator.eq, "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge}
+    return value is not None and bool(compare[sign](value, number))
 
 
 def bearing_summary(row: AnyBearing) -> dict[str, Any]:
@@ -241,7 +282,7 @@ def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
     ]
 
 
-def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | LubricantRow | MaterialRow | CageRow:
+def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> AnyBearing | LubricantRow | MaterialRow | CageRow:
     """Find the row of a name.
 
     It is that of a bearing, otherwise of a lubricant, material or cage.
@@ -252,6 +293,9 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
         With the nearest names of all kinds, or with the makers to choose from.
     """
     bearings = catalogue.names("bearing")
+    rollers = roller_designation(catalogue, name, maker)
+    if rollers is not None:
+        return rollers.row
     if maker is not None or read_designation(name, bearings, catalogue.suffixes()) is not None:
         return designated(catalogue, name, maker)[0]
     others: tuple[Callable[[str], LubricantRow | MaterialRow | CageRow], ...]
@@ -265,7 +309,13 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
     makers = {row.maker.casefold() for row in catalogue.bearings("", 1_000_000)}
     if before.casefold() in makers:  # the maker is right: of its own bearings
         return catalogue.bearing(last, before)
-    known = [*bearings, *catalogue.names("lubricant"), *catalogue.names("material"), *catalogue.names("cage")]
+    known = [
+        *bearings,
+        *(row.designation for row in catalogue.rollers()),
+        *catalogue.names("lubricant"),
+        *catalogue.names("material"),
+        *catalogue.names("cage"),
+    ]
     raise CatalogueError(
         "catalogue", [Problem("name", unknown_name("bearing, lubricant, material or cage", name, known))]
     )
@@ -290,8 +340,8 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
         kinds = "deep groove, angular contact, four-point contact, double row and self-aligning"
-        holds = f"{kinds} ball bearings of {makers}; "
-        holds += "roller bearings by the start of a designation (NU 2, 322); oils and greases: --lubricants"
+        holds = f"{kinds} ball bearings of {makers}, cylindrical, needle and tapered roller bearings; "
+        holds += "oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))
         holds = f"{len(names) - greases} oils and {greases} greases"

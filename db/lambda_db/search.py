@@ -30,7 +30,7 @@ KEYS: dict[str, Any] = {
     "maker": Bearing.maker,
     "grade": Bearing.geometry_grade,
 }
-_COMPARISON = re.compile(r"^(\w+)(<=|>=|=|<|>)(.*)$")
+COMPARISON = re.compile(r"^(\w+)(<=|>=|=|<|>)(.*)$")
 _NUMBER = re.compile(r"^(\d+(?:\.\d+)?)(?:mm|kN|deg)?$")
 
 
@@ -89,7 +89,7 @@ def bearing_query(text: str, limit: int) -> Select[Any]:
     conditions: list[ColumnElement[bool]] = []
     order: list[Any] = []
     for word in text.split():
-        comparison = _COMPARISON.match(word)
+        comparison = COMPARISON.match(word)
         if comparison:
             conditions.append(_compare(word, *comparison.groups()))
         else:

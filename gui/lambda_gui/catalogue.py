@@ -24,7 +24,9 @@ from lambda_gui.lifecycle import is_here
 from lambda_gui.sketch import drawn
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingRow, Catalogue, LubricantRow
+    from lambda_db.presentation import AnyBearing
+
+    from lambda_core.api import Catalogue, LubricantRow
 
 _MOST = 200  # rows in the list
 _COLUMNS: dict[Kind, tuple[str, ...]] = {
@@ -70,7 +72,7 @@ class CatalogueScreen(Screen[Taken | None]):
     def __init__(self, catalogue: Catalogue, kind: Kind, designation: str = "") -> None:
         super().__init__()
         self.catalogue, self._kind, self._before = catalogue, kind, designation
-        self._bearings: list[BearingRow] = []
+        self._bearings: list[AnyBearing] = []
         self._lubricants: list[LubricantRow] = []
         self._timer: Timer | None = None
         self._listed = ""  # what the list has been filtered by
@@ -106,10 +108,6 @@ class CatalogueScreen(Screen[Taken | None]):
     def _show_kind(self) -> None:
         self.query_one("#kind", Static).update("Bearings" if self._kind == "bearing" else "Lubricants")
         self.query_one(Input).placeholder = _HINT[self._kind]
-        table = self.query_one(DataTable)
-        table.clear(columns=True)
-        for column in _COLUMNS[self._kind]:
-            table.add_column(column)
         self.find()
 
     def on_input_changed(self, event: Input.Changed) -> None:
@@ -125,9 +123,11 @@ class CatalogueScreen(Screen[Taken | None]):
         """
         text, table = self.query_one(Input).value, self.query_one(DataTable)
         self._listed = text
-        table.clear()
+        table.clear(columns=True)  # columns are as wide as what is listed now
+        for column in _COLUMNS[self._kind]:
+            table.add_column(column)
         if self._kind == "bearing":
-            self._bearings = self.catalogue.bearings(text, _MOST)
+            self._bearings = self._found(text)
             for row in self._bearings:
                 table.add_row(*_bearing_cells(row))
             names = [f"{row.designation} {row.maker}" for row in self._bearings]
@@ -141,6 +141,16 @@ class CatalogueScreen(Screen[Taken | None]):
         if keep in names:
             table.move_cursor(row=names.index(keep))
         self._show_details()
+
+    def _found(self, text: str) -> list[AnyBearing]:
+        """Return the bearings that match, rollers after balls.
+
+        Without a filter the list has room for some of each.
+        """
+        from lambda_db.presentation import rollers_found
+
+        rollers = rollers_found(self.catalogue, text)
+        return [*self.catalogue.bearings(text, max(_MOST - len(rollers), _MOST // 2)), *rollers][:_MOST]
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
         """Show the row under the cursor."""
@@ -156,13 +166,15 @@ class CatalogueScreen(Screen[Taken | None]):
             self.find()
 
     @property
-    def _row(self) -> BearingRow | LubricantRow | None:
+    def _row(self) -> AnyBearing | LubricantRow | None:
         rows = self._bearings if self._kind == "bearing" else self._lubricants
         at = self.query_one(DataTable).cursor_row
         return rows[at] if 0 <= at < len(rows) else None
 
     def _show_details(self) -> None:
-        from lambda_db.drawing import section_of
+        from lambda_db.drawing import section_of, section_of_rollers
+
+        from lambda_core.api import RollerRow
 
         if not is_here(self):
             return
@@ -172,7 +184,7 @@ class CatalogueScreen(Screen[Taken | None]):
             about.update(Text(self._nothing(), style="dim"))
             drawing.update("")
         elif self._kind == "bearing":
-            section = section_of(row)  # type: ignore[arg-type]
+            section = section_of_rollers(row) if isinstance(row, RollerRow) else section_of(row)  # type: ignore[arg-type]
             wide = self.size.width >= 112
             size = (16, 50) if wide else (9, 32)
             drawing.update(drawn(section, *size, self.app.theme_variables) if section else "")
@@ -196,11 +208,7 @@ class CatalogueScreen(Screen[Taken | None]):
         if not text.strip():
             return 0
         try:
-            found = (
-                self.catalogue.lubricants(text, _MOST)
-                if self._kind == "bearing"
-                else self.catalogue.bearings(text, _MOST)
-            )
+            found = self.catalogue.lubricants(text, _MOST) if self._kind == "bearing" else self._found(text)
         except LambdaError:
             return 0
         return len(found)
@@ -244,12 +252,15 @@ class CatalogueScreen(Screen[Taken | None]):
         """Copy this row to an own one."""
         from lambda_db.catalogue import SqlCatalogue
 
+        from lambda_core.api import RollerRow
         from lambda_gui.own_row import OwnRow
 
         self._catch_up()
         row = self._row
         if not isinstance(self.catalogue, SqlCatalogue):
             self.notify("the catalogue comes from another plugin: add rows there", severity="warning")
+        elif isinstance(row, RollerRow):
+            self.notify("single values of rollers are replaced in the case: Bearing, Rollers", severity="warning")
         elif row is not None:
             self.app.push_screen(OwnRow(self.catalogue, row), self._saved)
 
@@ -264,14 +275,17 @@ class CatalogueScreen(Screen[Taken | None]):
             self.notify(str(error), severity="error")
 
 
-def _bearing_cells(row: BearingRow) -> list[Text]:
+def _bearing_cells(row: AnyBearing) -> list[Text]:
     from lambda_db.presentation import bearing_summary
 
     s = bearing_summary(row)
     design, grade = "", "not known"
-    if s["ball_count"] is not None:
-        mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
+    mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
+    if "roller_count" in s:
+        design = f"{mark}{s['roller_count']} x {s['roller_diameter_mm']:g}"
+    elif s["ball_count"] is not None:
         design = f"{mark}{s['ball_count']} x {s['ball_diameter_mm']:g}"
+    if design:
         grade = f"{s['geometry_grade']} {s['geometry_status']}"
     own = "" if row.layer == "core" else f" ({'own' if row.layer == 'user' else 'plugin'})"
     numbers = ("" if s[name] is None else f"{s[name]:g}" for name in ("bore_mm", "outside_mm", "width_mm"))

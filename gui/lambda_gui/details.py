@@ -10,8 +10,9 @@ from lambda_core.domain.value_status import ESTIMATED
 
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
+    from lambda_db.presentation import AnyBearing
 
-    from lambda_core.api import BearingRow, Catalogue, LubricantRow
+    from lambda_core.api import Catalogue, LubricantRow
 
 
 class Sources:
@@ -33,13 +34,15 @@ class Sources:
             text.append(f"\n{number:>2} ", style="not bold").append(source, style="not bold dim")
 
 
-def bearing_text(row: BearingRow, catalogue: Catalogue) -> Text:
+def bearing_text(row: AnyBearing, catalogue: Catalogue) -> Text:
     """Return everything about a bearing."""
     from lambda_db.presentation import candidate_lines, clearance_lines, values_of
 
     sources = Sources()
     text = Text(f"{row.designation}  {row.maker}", style="bold")
-    about = "  ".join(filter(None, (row.kind, f"series {row.series}" if row.series else "", row.rating_type)))
+    about = "  ".join(
+        filter(None, (row.kind, f"series {row.series}" if row.series else "", getattr(row, "rating_type", "")))
+    )
     text.append(f"  {about}\n", style="not bold dim")
     _values(text, values_of(row), sources)
     limits = clearance_lines(cast("SqlCatalogue", catalogue), row)

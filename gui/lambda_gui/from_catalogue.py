@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from lambda_core.api import Designation, read_designation
+from lambda_core.api import Designation, RollerRow, read_designation
 from lambda_core.domain.errors import LambdaError
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingRow, Catalogue
+    from lambda_db.presentation import AnyBearing
+
+    from lambda_core.api import Catalogue
 
 Kind = Literal["bearing", "lubricant"]
 
@@ -27,7 +29,7 @@ class Taken:
     said: str = ""
 
 
-def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue) -> Taken:
+def bearing_taken(row: AnyBearing, typed: str, before: str, catalogue: Catalogue) -> Taken:
     """Return a catalogue row with its suffixes.
 
     They belong behind it.
@@ -42,6 +44,8 @@ def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue
     before : str
         Designation in the case so far, "" without one.
     """
+    if isinstance(row, RollerRow):
+        return Taken("bearing", row.designation, row.maker)
     new, old = _read(typed, catalogue), _read(before, catalogue)
     added = list(new.suffixes) if new is not None and new.base == row.designation else []
     kinds = {suffix.kind for _, suffix in added}

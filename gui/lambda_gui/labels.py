@@ -21,7 +21,6 @@ _LABELS = {
     "outside_diameter": "outside diameter D",
     "geometry.width": "width B",
     "geometry.rows": "rows of balls",
-    "bearing.rollers": "rollers of your own",
     "row_distance": "distance of the rows",
     "geometry.arrangement": "arrangement of the rows",
     "dynamic_rating": "dynamic rating C",

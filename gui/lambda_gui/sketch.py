@@ -6,7 +6,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from lambda_db.drawing import AIR, BALL, RING, Section
+from lambda_db.drawing import AIR, BALL, RING, AnySection, Section, section_of_rollers
 from rich.text import Text
 from textual.color import Color
 from textual.widgets import Static
@@ -40,7 +40,7 @@ class Sketch(Static):
 
     def __init__(self) -> None:
         super().__init__(id="sketch")
-        self._section: Section | None = None
+        self._section: AnySection | None = None
         self._machine: MachineModel | None = None
         self._equilibrium: MachineEquilibrium | None = None
         self._is_about_axes = False
@@ -51,7 +51,8 @@ class Sketch(Static):
         The equilibrium of the case before does not belong to it.
         """
         if check.alone is not None:
-            self._section = section_of_geometry(check.alone.geometry)
+            rollers = check.alone.rollers
+            self._section = section_of_rollers(rollers) if rollers else section_of_geometry(check.alone.geometry)
         elif check.machine is not None:
             self._machine, self._equilibrium = check.machine, None
         self.draw()
@@ -91,7 +92,7 @@ class Sketch(Static):
         elif self._is_about_axes:
             self.update(axes_sketch(colours).append(f"\n{SIGNS}", style="dim"))
         elif self._section is not None:
-            clearance = 1e6 * self._section.geometry.clearance
+            clearance = 1e6 * self._section.clearance
             self.update(drawn(self._section, min(height - 2, 22), width, colours, clearance))
 
 
@@ -100,7 +101,9 @@ def section_of_geometry(geometry: Geometry) -> Section:
     return Section(geometry)
 
 
-def drawn(section: Section, height: int, width: int, colours: dict[str, str], clearance: float | None = None) -> Text:
+def drawn(
+    section: AnySection, height: int, width: int, colours: dict[str, str], clearance: float | None = None
+) -> Text:
     """Draw a section with its dimensions.
 
     Contact line, and diameters, clearance and angle at the side; edges are smooth.
@@ -129,7 +132,7 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str], cl
         _row(section.race_inner, section, rows): f"⌀ {section.race_inner:.2f}",
         rows // 2 - 1: f"d {section.bore:g} mm",
     }
-    angle = math.degrees(section.geometry.contact_angle or section.geometry.resting_angle)
+    angle = math.degrees(section.angle)
     told = [f"clearance {clearance:.3g} um"] if clearance is not None else []
     told += [f"angle {angle:.3g}°"] if angle else []
     for line in range(1, rows // 2 - 1):
@@ -145,7 +148,7 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str], cl
 
 
 @lru_cache(maxsize=32)
-def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball: str, line: str) -> list[list[str]]:
+def _pixels(section: AnySection, rows: int, columns: int, air: str, ring: str, ball: str, line: str) -> list[list[str]]:
     """Return the colour of each pixel.
 
     It is the mean over points in it.
@@ -171,6 +174,6 @@ def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball
     return [[colour(row, column) for column in range(columns)] for row in range(rows)]
 
 
-def _row(diameter: float, section: Section, rows: int) -> int:
+def _row(diameter: float, section: AnySection, rows: int) -> int:
     share = (section.outside - diameter) / (section.outside - section.bore)
     return min(rows // 2 - 2, max(1, int(share * rows / 2)))

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.drawing import BALL, RING, cross_section
+from lambda_db.roller_drawing import RollerSection, section_of_rollers
+
+from lambda_core.catalogue.roller_designation import roller_designation
 
 
 @pytest.mark.parametrize(
@@ -43,3 +47,27 @@ def test_numbers_at_the_side(catalogue: SqlCatalogue) -> None:
 def test_unknown_inner_geometry(catalogue: SqlCatalogue) -> None:
     assert catalogue.bearing("61806", "SKF").ball_count is None
     assert "not known" in cross_section(catalogue.bearing("61806", "SKF"))
+
+
+@pytest.mark.parametrize(("kind", "ribs"), [("NU", {"outer"}), ("N", {"inner"}), ("NUP", {"inner", "outer"})])
+def test_rollers_and_their_ribs_are_to_scale(kind: str, ribs: set[str]) -> None:
+    """Draw a roller, and the ribs that rings have."""
+    section = RollerSection(kind, 40.0, 80.0, 18.0, 60.5, 11.0, 10.0, rib=2.0)
+    points = np.linspace(-9.0, 9.0, 361)
+    middle = [section.cell(x, 30.25) for x in points]
+    assert 18.0 * middle.count(BALL) / len(middle) == pytest.approx(10.0, abs=0.1)
+    assert [section.cell(0.0, r) for r in (24.7, 24.8, 35.7, 35.8)] == [RING, BALL, BALL, RING]
+    found = {ring for ring, r in (("inner", 26.0), ("outer", 34.5)) if section.cell(-5.5, r) == RING}
+    assert found == ribs
+
+
+def test_tapered_rollers_lie_on_their_raceways(catalogue: SqlCatalogue) -> None:
+    """Leave no room between a cone and both raceways."""
+    section = section_of_rollers(roller_designation(catalogue, "32216").row)  # type: ignore[union-attr]
+    for x in (-8.0, 0.0, 8.0):
+        column = [section.cell(x, r) for r in np.arange(40.0, 70.0, 0.02)]
+        first, last = column.index(BALL), len(column) - column[::-1].index(BALL)
+        assert column[first - 2] == column[last + 1] == RING
+        if x < 0.0:
+            large = last - first
+    assert large > last - first

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from driving import LARGE, checked, go_to, move_to, screen_text, wait_for
+from driving import LARGE, SMALL, checked, go_to, move_to, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.choice import Choice, PickList
 from lambda_gui.derived import Derived, between
 from lambda_gui.profiles import ProfileRow
 from reading import cut_on
 from textual.pilot import Pilot
+from textual.widgets import DataTable
 
 from lambda_core import api
 from lambda_core.discovery import local_files, manager
@@ -81,6 +82,20 @@ async def choose(pilot: Pilot[None], profile: str) -> None:
 
 def test_one_number_of_two_reads_as_one() -> None:
     assert [between(ends, 1) for ends in ([2.29], [2.29, 2.31], [2.0, 3.0])] == ["2.3", "2.3", "2.0..3.0"]
+
+
+async def test_a_roller_bearing_comes_from_the_catalogue(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await pilot.press("f2", *"tapered 322")
+        await wait_for(pilot, lambda: "32208" in screen_text(pilot.app))
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 2)
+        assert "17 x 10 " in screen_text(pilot.app)
+        assert cut_on(pilot.app) == []
+        await pilot.press("down", "enter")
+        draft = pilot.app.builder.draft  # type: ignore[attr-defined]
+        await wait_for(pilot, lambda: draft.get("bearing", "designation") == "32216")
+        assert draft.get("bearing", "maker") == "SKF"
 
 
 async def test_numbers_that_follow_are_those_of_rollers(gearbox: Path, estimates: None) -> None:
