@@ -285,6 +285,12 @@ def show(value: float, quantity: str, digits: int | None = None) -> str:
     """
     if digits is not None:
         return _rounded(value, quantity, digits)
+    return _exact(repr(float(value)), quantity)
+
+
+@lru_cache(maxsize=4096)  # a study resolves thousands of cases that differ in a few numbers
+def _exact(given: str, quantity: str) -> str:
+    value = float(given)  # by its text: -0.0 is not 0.0
     spellings: list[tuple[bool, float, str]] = []
     for unit in UNITS[quantity]:
         converted = from_si(value, quantity, unit)

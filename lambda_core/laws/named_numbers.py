@@ -103,7 +103,9 @@ def flatten(layout: Layout, record: Any, behind: Iterable[float] = ()) -> np.nda
     RecordError
         Naming the member that is no finite number, or no array of such.
     """
-    return np.array([*_words(layout, record, ""), *behind], dtype=np.float64)
+    found: list[float] = []
+    _add_words(found, layout, record, "")
+    return np.array([*found, *behind], dtype=np.float64)
 
 
 def _hints(record: type) -> Iterator[tuple[str, Any]]:
@@ -140,21 +142,21 @@ def _bare(hint: Any) -> Any:
     return get_args(hint)[0] if get_origin(hint) is Annotated else hint
 
 
-def _words(layout: Layout, record: Any, path: str) -> Iterator[float]:
+def _add_words(found: list[float], layout: Layout, record: Any, path: str) -> None:
     for member in layout.members:
-        value, name = getattr(record, member.name), f"{path}{member.name}"
+        value = getattr(record, member.name)
         if isinstance(member.kind, Layout):
-            yield from _words(member.kind, value, f"{name}.")
+            _add_words(found, member.kind, value, f"{path}{member.name}.")
         elif member.kind == "array":
-            values = _numbers(value, name)
-            yield float(values.size)
-            yield from values.tolist()
+            values = _numbers(value, f"{path}{member.name}")
+            found.append(float(values.size))
+            found += values.tolist()
         else:
             if not isinstance(value, _KINDS):
-                raise RecordError(f"{name} = {value!r}, must be a number")
+                raise RecordError(f"{path}{member.name} = {value!r}, must be a number")
             if not math.isfinite(value):
-                raise RecordError(f"{name} = {value}, must be finite")
-            yield float(value)
+                raise RecordError(f"{path}{member.name} = {value}, must be finite")
+            found.append(float(value))
 
 
 def _numbers(value: Any, name: str) -> np.ndarray[Any, np.dtype[np.float64]]:

@@ -6,7 +6,7 @@ reads the fields in code that is compiled here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -37,8 +37,8 @@ class Array:
         """Number of words of an array."""
         return HEAD + 1 + 2 * self.ndim
 
-    def of(self, value: Any, address: int) -> Iterator[int]:
-        """Yield the words of an array.
+    def of(self, value: Any, address: int) -> tuple[int, ...]:
+        """Return the words of an array.
 
         Its items are at an address.
 
@@ -51,7 +51,7 @@ class Array:
             raise TypeError(f"an array of {value.dtype}, shape {value.shape}, where compiled code takes {self}")
         if self.dtype.names is None and value.dtype != self.dtype:
             raise TypeError(f"an array of {value.dtype} where compiled code takes {self}")
-        yield from (0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
+        return (0, 0, value.size, value.itemsize, address, *value.shape, *value.strides)
 
     def __str__(self) -> str:
         what = f"records of {self.dtype.itemsize} bytes" if self.dtype.names else str(self.dtype)
@@ -119,22 +119,28 @@ def by_reference(otherwise: Kind | None = None, /, **kinds: Kind) -> Callable[[t
 def _address(self: Any) -> int:
     kept: Any = self.__dict__.get("_words")
     if kept is None:
-        kept = self._words = np.array(list(words(type(self), self)), dtype=np.int64)
+        kept = self._words = np.array(words(type(self), self), dtype=np.int64)
     return int(kept.ctypes.data)
 
 
-def words(kind: Kind, value: Any) -> Iterator[int]:
-    """Yield the words of a field.
+def words(kind: Kind, value: Any) -> list[int]:
+    """Return the words of a field.
 
     TypeError where an array is of another type.
     """
+    found: list[int] = []
+    _add_words(found, kind, value)
+    return found
+
+
+def _add_words(found: list[int], kind: Kind, value: Any) -> None:
     if isinstance(kind, Array):
-        yield from kind.of(value, int(value.ctypes.data))
+        found += kind.of(value, int(value.ctypes.data))
     elif isinstance(kind, Function):
-        yield from (value.__wrapper_address__(), 0, 0)
+        found += (value.__wrapper_address__(), 0, 0)
     else:
-        for field, of_field in kinds_of(kind).items():
-            yield from words(of_field, getattr(value, field))
+        for of_field, one in zip(kinds_of(kind).values(), value, strict=True):  # in the order of the tuple
+            _add_words(found, of_field, one)
 
 
 def addresses(rows: Sequence[Sequence[Any]]) -> NDArray[np.int64]:

@@ -24,6 +24,7 @@ from lambda_core.solver.records import RACEWAY_ROLES
 
 Announce = Callable[[str], None] | None
 _Prepared = tuple[ChosenLaw, Context, FloatArray]
+_KEPT = 2  # sets of parameters of a law: of the first guess of the contacts and of their place
 # Hash of a law's code, force element and parameters of what was tried out and found in order.
 _in_order: set[tuple[str, str, str]] = set()
 
@@ -50,7 +51,7 @@ class Kernels:
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {} if near is None else near.of_laws(model)
         self.compiled: dict[tuple[str, str], Any] = {}
-        self._prepared: dict[tuple[str, str], _Prepared] = {} if near is None else dict(near._prepared)
+        self._prepared: dict[tuple[str, str], list[_Prepared]] = {} if near is None else dict(near._prepared)
         for element, roles in model.laws.items():
             for role, law in roles.items():
                 name = (role, law.model.label)  # two packages may have laws of one name
@@ -74,14 +75,17 @@ class Kernels:
     def parameters(self, model: BearingModel, element: str, role: str, context: Context) -> FloatArray:
         """Return a law's parameters as its kernel reads them.
 
-        They are those of the last call where law and context are the same: a model band solves some twenty models that
-        differ in one law.
+        They are those of an earlier call where law and context are the same: a model band solves some twenty models
+        that differ in one law, and an equilibrium is found from a first guess of the contacts, then for their place.
         """
-        law, place = model.laws[element][role], (element, role)
-        known = self._prepared.get(place)
-        if known is None or known[0] is not law or known[1] != context:
-            known = self._prepared[place] = law, context, prepare(law, context)
-        return known[2]
+        law = model.laws[element][role]
+        known = self._prepared.get((element, role), [])
+        for kept in known:
+            if kept[0] is law and kept[1] == context:
+                return kept[2]
+        made = prepare(law, context)
+        self._prepared[element, role] = [(law, context, made), *known[: _KEPT - 1]]
+        return made
 
     def keys(self) -> dict[str, str]:
         """Return "element/role/model" -> hash of everything the kernel reaches."""
