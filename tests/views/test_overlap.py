@@ -48,8 +48,8 @@ def test_labels_of_close_marks_keep_apart() -> None:
     assert third.y1 == pytest.approx(first.y1, abs=1.0)
 
 
-def test_a_legend_beside_a_panel_leaves_the_others_room() -> None:
-    """Put a panel with ten curves into a line of its own.
+def test_an_outer_legend_leaves_the_other_panels_room() -> None:
+    """Give a panel with ten curves its own line.
 
     Its legend stood between two columns: the titles of the second ran out of the picture.
     """

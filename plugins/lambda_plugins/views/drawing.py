@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from lambda_plugins.views.frame import has_legend_beside
+from lambda_plugins.views.frame import has_outer_legend
 from lambda_plugins.views.panels import draw_panel
 from lambda_plugins.views.style import INK, RC, SOFT
 from lambda_plugins.views.verbatim import verbatim
@@ -98,11 +98,11 @@ def draw(data: ViewData) -> Figure:
 def _grid(panels: tuple[Panel, ...], columns: int, legends: set[int]) -> list[list[Panel]]:
     """Return the panels line by line.
 
-    A panel with a legend beside it is alone in its line: the legend would leave its neighbours no room.
+    A panel with a legend outside it is alone in its line: the legend would leave its neighbours no room.
     """
     grid: list[list[Panel]] = [[]]
     for number, panel in enumerate(panels):
-        is_alone = columns > 1 and number in legends and has_legend_beside(panel)
+        is_alone = columns > 1 and number in legends and has_outer_legend(panel)
         if grid[-1] and (is_alone or len(grid[-1]) == columns):
             grid.append([])
         grid[-1].append(panel)

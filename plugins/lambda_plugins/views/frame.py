@@ -137,7 +137,7 @@ def draw_line(axes: Any, mark: Mark) -> None:
 def draw_labels(axes: Any, marks: Sequence[Mark]) -> None:
     """Write what marks are, where they can be seen.
 
-    A label beside a line begins below the one before, where the two lines are closer than a letter is high.
+    A label at the end of a line begins below the one before, where the two lines are closer than a letter is high.
     """
     before, down = -math.inf, 0.0
     for mark in sorted(marks, key=lambda one: one.value):
@@ -169,7 +169,7 @@ def _is_full(panel: Panel) -> bool:
     return panel.shape == "plain" and any(series.kind == "line" and is_restless(series.y) for series in panel.series)
 
 
-def has_legend_beside(panel: Panel) -> bool:
+def has_outer_legend(panel: Panel) -> bool:
     """Tell whether the legend stands next to the axes."""
     named = [series for series in panel.series if not series.unlisted]
     entries = dict.fromkeys(word for series in named for word in (series.name, series.band) if word)
