@@ -70,6 +70,14 @@ def traction(slip, p, T, ln_eta, h, par, tau):
     return OK
 
 
+@law("traction", "own-rib", role_api=3, reference="own work")
+def rib_traction(slip, p, T, ln_eta, h, par, tau):
+    """Let ribs slide: an oil that hardly holds them."""
+    for i in range(tau.size):
+        tau[i] = 1e9 * slip[i]
+    return OK
+
+
 @law("rolling_resistance", "own", role_api=3, reference="own work")
 def rolling_resistance(u_mean, load, semi_a, semi_b, R_x, R_y, E_eff, eta0, alpha_p, beta, k_oil, par, out):
     out[0] = 0.0
