@@ -240,7 +240,7 @@ def _print(table: StudyTable, units: UnitSystem) -> None:
     for index, row in enumerate(table.rows()):
         cells = []
         for column in columns:
-            cells.append(_cell(row[column.name], column.unit, units))
+            cells.append(column.text(index, units) or _cell(row[column.name], column.unit, units))
             cells += [column.band_text(index, units)] if column.band else []
         shown.add_row(str(index + 1), *cells, row["state"], style="dim" if row["state"] == "failed" else None)
     Console(width=None if sys.stdout.isatty() else 240, highlight=False).print(shown)

@@ -75,6 +75,17 @@ class Column:
         """
         return np.array([(np.nan, np.nan) if ends is None else ends for ends in self.band])
 
+    def text(self, row: int, units: UnitSystem = SI) -> str:
+        """Return a row's number to the digits that its band leaves.
+
+        Empty without a band.
+        """
+        ends, value = self.band[row] if self.band else None, self.values[row]
+        if ends is None or not isinstance(value, float):
+            return ""
+        low, high = (units.value(end, self.unit) for end in ends)
+        return rounded(units.value(value, self.unit), 0.5 * abs(high - low))
+
     def band_text(self, row: int, units: UnitSystem = SI) -> str:
         """Return the ends of a row's band.
 

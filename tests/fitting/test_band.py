@@ -422,12 +422,20 @@ def test_a_study_tells_the_band_of_its_case_and_of_each_point(
     frame = table.to_pandas()
     assert frame["friction_torque_Nmm_band_low"].iloc[1] < frame["friction_torque_Nmm"].iloc[1]
     assert main(["study", "show", str(tmp_path / "speeds")]) == 0
-    assert torque.band_text(1) in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert torque.band_text(1) in shown
+    assert f" {torque.text(1)} " in shown  # rounded to the band
+    assert f"{torque.values[1]:.5g}" not in shown
     assert main(["study", "show", "--csv", str(tmp_path / "speeds")]) == 0
     assert "friction_torque_Nmm_band_low [N mm]" in capsys.readouterr().out
-    curve = api.view(tmp_path / "speeds", "study-curves").panels[0].series[0]
+    view = api.view(tmp_path / "speeds", "study-curves")
+    assert "shaded: 90 % model band" in view.notes
+    curve = view.panels[0].series[0]
     assert curve.low is not None
     np.testing.assert_allclose(curve.low, torque.ends()[:, 0])
+    page = api.report(tmp_path / "speeds", tmp_path / "speeds.html").read_text(encoding="utf-8")
+    assert f"<td>{torque.band_text(1)}</td>" in page
+    assert status.model_band.shares()[0] in page
 
 
 def test_points_between_get_their_bands_from_their_neighbours() -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import hours, hours_alone, number
+from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
 from lambda_core.results.bearing_summary import BearingSummary
@@ -15,14 +15,12 @@ from lambda_core.results.machine_numbers import total
 from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.quantity import quantities, quantity_of, remaining
 from lambda_core.results.text import PLACED
-from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import ResolvedValue
     from lambda_core.results.verdict import Verdict
 
 
-_ROWS = 1000  # of a study's table
 _NOTHING = 1e-9  # a number in the units of the interface below which there is nothing
 # Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
 _IN_PARTS = ("materials", "forces", "bodies")
@@ -410,32 +408,6 @@ def convergence(summary: Any, units: UnitSystem = SI) -> Table:
         *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
     ]
     return Table("convergence", ("", "value", "unit"), tuple(rows))
-
-
-def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
-    columns = [*table.parameters, *(c for c in table.responses if not c.is_part)]
-    head = ("point", *(f"{c.label} [{units.unit(c.unit)}]" if c.unit else c.label for c in columns), "state")
-    shown = table.rows()[:_ROWS]
-    rows = tuple(
-        (
-            str(row["point"]),
-            *(_cell(row[c.name], c.unit, units) for c in columns),
-            f"{row['state']}: {row['reason']}" if row["reason"] else row["state"],
-        )
-        for row in shown
-    )
-    left = f" (the first {_ROWS} of {len(table)})" if len(table) > _ROWS else ""
-    return Table(f"points{left}", head, rows)
-
-
-def _cell(value: Any, unit: str, units: UnitSystem) -> str:
-    """Write a number of a point.
-
-    It writes a life as a life, and others to four digits.
-    """
-    if not isinstance(value, float):
-        return written(value)
-    return hours_alone(value) if unit == "h" else rounded(units.value(value, unit), 4)
 
 
 def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:

@@ -27,10 +27,10 @@ from lambda_core.export.report.key_tables import (
     machine_reactions,
     rounded,
     run_figures,
-    study_points,
     watched,
 )
 from lambda_core.export.report.sketch import shaft_sketch
+from lambda_core.export.report.study_points import study_bands, study_points
 from lambda_core.model.checks.assumption_effects import by_effect
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
@@ -184,7 +184,7 @@ def study_chapter(
         for name, count in (("partial", status.partial), ("failed", status.failed), ("to do", status.pending))
         if count
     ]
-    tables = [study_points(table, cover.units)]
+    tables = [*study_bands(status.model_band), study_points(table, cover.units)]
     pictures = _pictures(registry, table, "study", cover, all_of_them=True)
     if status.best is not None:
         units = table.units()

@@ -59,6 +59,8 @@ def study_curves(table: StudyTable, options: Curves) -> ViewData:
     notes = [f"all other parameters vary too: {', '.join(_others(table, x))}"] if sampled and _others(table, x) else []
     if compared and table.mode == "quasi-static":
         notes.append("the quasi-static solution has no cage")
+    if any(one.low is not None for panel in panels for one in panel.series):
+        notes.append("shaded: 90 % model band")
     return ViewData("study-curves", "Responses over a parameter", source_line(table), tuple(panels), 2, tuple(notes))
 
 
