@@ -75,7 +75,7 @@ def fit(
     if rows and out is None:
         raise UsageError("--rows stores measured values in the case of --out: name a file with --out")
     if out is not None:
-        check_new(out, force)
+        check_folder(check_new(out, force).absolute().parent, out)
     if report is not None:
         api.check_page(report, overwrite=force)
     if draw is not None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.number_text import counted
 from lambda_core.fitting import uncertainty as U
 from lambda_core.fitting.model_calls import Model, ModelCalls
 from lambda_core.fitting.parameters import Parameter, bounds, spreads, starts
@@ -262,7 +263,7 @@ def fit(
     """
     if data.values.size <= len(parameters):
         raise ValueError(
-            f"{data.values.size} measured values for {len(parameters)} parameters are too few: "
+            f"{counted(data.values.size, 'measured value')} for {counted(len(parameters), 'parameter')}: too few, "
             "vary fewer parameters or add operating points"
         )
     step = _STEP * np.maximum(np.abs(starts(parameters)), spreads(parameters) * 1e-3)

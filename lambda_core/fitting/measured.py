@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -213,12 +213,21 @@ def _read(folder: Traversable, name: str) -> MeasuredSeries:
     try:
         found = MeasuredSeries(**{**tables, "name": name.removesuffix(".toml")})
     except ValidationError as error:
-        raise CaseError(name, [Problem(".".join(map(str, e["loc"])), e["msg"]) for e in error.errors()]) from None
-    files_of_case = [folder.joinpath(_CASES).joinpath(name)] if folder == _own_folder() else []
+        raise CaseError(name, [Problem(".".join(map(str, e["loc"])), _mistake(e)) for e in error.errors()]) from None
+    files_of_case: list[Traversable] = [folder.joinpath(_CASES).joinpath(name)] if folder == _own_folder() else []
     if found.case and isinstance(found.case, str):
         files_of_case.append(folder.joinpath(found.case))
     case = next((str(file) for file in files_of_case if file.is_file()), found.case)
     return found.model_copy(update={"case": case})
+
+
+def _mistake(error: Mapping[str, Any]) -> str:
+    """Return what is wrong with an entry of a description."""
+    if error["type"] == "missing":
+        return "is required: write a text"
+    if error["type"] == "extra_forbidden":
+        return unknown_name("entry", error["loc"][-1], MeasuredSeries.model_fields)
+    return str(error["msg"])
 
 
 def _load(name: str) -> _Loaded:

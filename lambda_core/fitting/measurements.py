@@ -20,9 +20,11 @@ from lambda_core.domain.units import from_si, misread, parse, units_of
 
 _LARGEST = 16 * 2**20  # [byte] of a file
 _HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
+_ROUND = re.compile(r"^(.*?)\s*\(([^()]*)\)$")  # a unit in round brackets
 _LISTED = 16  # most names that an error lists
 _LONGEST, _BEGIN = 80, 20  # characters of a number, and of the part of it that an error shows
 _SMALL, _BIG = 1e-15, 1e15  # sizes of numbers but 0, in their units: far beyond, squares overflow
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how such a file begins
 _SHARE = "%"  # unit of an error as a share of the value
 
 
@@ -138,8 +140,10 @@ def read_measurements(path: str | Path, words: Vocabulary = OPERATING_POINTS) ->
     file = Path(path)
     try:
         text = read_text(file, _LARGEST)
-    except UnicodeDecodeError:
-        raise CaseError(file.name, [Problem("", "is not UTF-8 text: save it as CSV in UTF-8")]) from None
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        what = "is text in UTF-16" if error.object[:2] in _UTF_16 else "has a character that is not UTF-8"
+        raise CaseError(file.name, [Problem(f"line {line}", f"{what}: save the file as CSV in UTF-8")]) from None
     except OSError as error:
         raise UsageError(f'cannot read "{file}": {error.strerror}') from None
     return parse_measurements(text, file.name, words)
@@ -175,6 +179,8 @@ def _columns(line: int, header: list[str], problems: list[Problem], words: Vocab
             continue
         if any((column.kind, column.name) == (other.kind, other.name) for other in found):
             problems.append(Problem(where, f'"{column.name}" appears twice: remove or rename one of the columns'))
+        elif same := next((other for other in found if _sets_the_same(column, other)), None):
+            problems.append(Problem(where, f'"{column.name}" sets what "{same.name}" sets: keep one of them'))
         found.append(column)
     if problems:
         return found
@@ -189,6 +195,13 @@ def _columns(line: int, header: list[str], problems: list[Problem], words: Vocab
     both = {n for k, n in names if k == "error"} & {n for k, n in names if k == "share"}
     problems += [Problem(f"line {line}", f'"{name}" has two columns of errors: keep one') for name in sorted(both)]
     return found
+
+
+def _sets_the_same(one: _Column, other: _Column) -> bool:
+    """Tell whether two columns set one option."""
+    if one.condition is None or other.condition is None or one.kind != other.kind:
+        return False
+    return one.condition.path == other.condition.path != ""
 
 
 def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabulary) -> _Column | None:
@@ -212,6 +225,8 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         known = [*vocabulary.conditions, *measured]
         close = nearest(name, known)
         names = f"nearest: {', '.join(close)}" if close else f"allowed: {', '.join(known[:_LISTED])}"
+        if plain := _ROUND.match(written):
+            names = f'write the unit in square brackets: "{plain[1]} [{plain[2]}]"'
         shown = text if len(text) <= _LONGEST else f"{text[:_BEGIN]}..."
         if why := vocabulary.why_not(name):
             problems.append(Problem(where, f'"{shown}": {why}'))

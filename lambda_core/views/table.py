@@ -76,7 +76,7 @@ class Column:
         return np.array([(np.nan, np.nan) if ends is None else ends for ends in self.band])
 
     def text(self, row: int, units: UnitSystem = SI) -> str:
-        """Return a row's number to the digits that its band leaves.
+        """Return a row's number, rounded to its band.
 
         Empty without a band.
         """

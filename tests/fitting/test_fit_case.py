@@ -72,6 +72,15 @@ def test_a_page_that_nothing_can_print_is_refused_before_the_fit(
     assert "a PDF needs a browser on PATH" in capsys.readouterr().err
 
 
+def test_a_folder_that_takes_no_case_is_refused_before_the_fit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("lambda_core.api.fit", lambda *given, **more: pytest.fail("fitted"))
+    out = str(tmp_path / "none" / "fitted.toml")
+    assert main(["fit", CASE, str(tmp_path / "rig.csv"), "--vary", "loss_factor", "-q", "--out", out]) == 2
+    assert "does not exist" in capsys.readouterr().err
+
+
 def test_true_values_are_found(report: api.FitReport) -> None:
     loss, stress = report.parameters
     assert loss.value == pytest.approx(0.04, rel=1e-3)

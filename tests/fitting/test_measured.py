@@ -15,7 +15,7 @@ from lambda_syla2026.published import MEASURED, TABLE_4
 
 from lambda_core import api
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.model.machine_templates import geared_shaft
 
 PAGE = Path(__file__).parents[2] / "docs/validation.md"
@@ -119,6 +119,14 @@ def test_an_unknown_series_is_refused() -> None:
 def test_a_file_that_describes_no_series_is_not_taken_for_a_name(name: str) -> None:
     with pytest.raises(UsageError, match=rf"{name} is not a TOML file that describes a series: correct the path"):
         api.compare_measured([name])
+
+
+def test_a_description_without_its_entries_says_what_is_missing(tmp_path: Path) -> None:
+    (tmp_path / "rig.toml").write_text('title = "rig"\nsorce = "us"\n')
+    with pytest.raises(
+        CaseError, match=r'licence +is required: write a text\n(.*\n)*.*"sorce" is not a known entry; near'
+    ):
+        api.compare_measured([str(tmp_path / "rig.toml")])
 
 
 def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:

@@ -12,6 +12,7 @@ import pytest
 
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.fitting.measurements import parse_measurements, read_measurements
+from lambda_core.fitting.subjects import subject_of
 
 _TORQUE = "friction torque [N m],friction torque error [%]"
 GOOD = f"""# run of 3 May
@@ -41,6 +42,30 @@ def test_semicolons_and_quotes_around_cells_are_read() -> None:
     np.testing.assert_allclose(found.measured["power loss"], [100.0])
 
 
+@pytest.mark.parametrize(
+    ("coded", "said"),
+    [
+        ("speed [rpm],oil temperature [degC]\n1,2\n".encode("utf-16"), r"line 1 +is text in UTF-16: save"),
+        ("speed [rpm],power loss [W]\n# Öl\n1,2\n".encode("latin-1"), r"line 2 +has a character that is not UTF-8"),
+    ],
+)
+def test_other_codes_of_characters_are_named_with_their_line(coded: bytes, said: str, tmp_path: Path) -> None:
+    (tmp_path / "rig.csv").write_bytes(coded)
+    with pytest.raises(CaseError, match=said):
+        read_measurements(tmp_path / "rig.csv")
+
+
+def test_two_columns_that_set_one_option_are_refused() -> None:
+    """Refuse the name of a condition and its path.
+
+    One of the two was taken without a word.
+    """
+    words = subject_of("6319-cp10-1500").words
+    text = "speed [rpm],operation.speed [rpm],friction torque [N mm]\n500,600,900\n"
+    with pytest.raises(CaseError, match=r'column 2 +"operation\.speed" sets what "speed" sets: keep one'):
+        parse_measurements(text, "rig.csv", words)
+
+
 def test_one_of_several_quantities_may_be_missing() -> None:
     found = parse_measurements("speed [rpm],power loss [W],capacitance [pF]\n500,3,\n600,,900\n", "rig.csv")
     np.testing.assert_allclose(found.measured["capacitance"], [np.nan, 0.9])
@@ -55,6 +80,7 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed,power loss [W]\n1,2\n", 'line 1, column 1       "speed" has no unit: write "speed [rpm]"'),
         ("sped [rpm],power loss [W]\n1,2\n", '"sped [rpm]" is not a known column; nearest: speed'),
         ("xyz [rpm],power loss [W]\n1,2\n", '"xyz [rpm]" is not a known column; allowed: speed, radial load,'),
+        ("speed (rpm),power loss [W]\n1,2\n", 'write the unit in square brackets: "speed [rpm]"'),
         ("speed [kN],power loss [W]\n1,2\n", "kN is not a unit of rotational_speed"),
         ("speed [rpm],speed [rpm],power loss [W]\n1,1,2\n", 'column 2       "speed" appears twice'),
         ("power loss [W],speed error [rpm]\n1,2\n", 'no column "speed" it belongs to'),

@@ -107,6 +107,17 @@ def test_a_measured_velocity_is_compared_with_the_computed_one(radial_run: Resul
         api.view(radial_run, "vibration", {"measured": str(file), "motion": "acceleration"})
 
 
+def test_a_signal_of_few_samples_has_no_envelope(radial_run: Result, tmp_path: Path) -> None:
+    """Refuse a sample each second.
+
+    The envelope of nothing was drawn.
+    """
+    file = tmp_path / "rig.csv"
+    file.write_text("\n".join(["time [s],acceleration [m/s2]", *(f"{k},{k % 3}" for k in range(64))]))
+    with pytest.raises(UsageError, match=r"rig\.csv: the envelope begins at .* Hz, above all frequencies"):
+        api.view(radial_run, "vibration", {"measured": str(file)})
+
+
 @pytest.mark.full
 def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_path: Path) -> None:
     """Read a signal of 200 000 lines.

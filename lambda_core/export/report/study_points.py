@@ -26,7 +26,7 @@ def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
 
 
 def study_bands(found: Any) -> tuple[Table, ...]:
-    """Return the bands at the values of the case and their causes.
+    """Return the bands of the case and their causes.
 
     It is empty where the study did not compute them.
     """
@@ -40,7 +40,7 @@ def _head(column: Column, units: UnitSystem) -> str:
 
 
 def _cells(column: Column, row: int, value: Any, units: UnitSystem) -> tuple[str, ...]:
-    """Write a number of a point, with its band where there is one.
+    """Write a number of a point and its band.
 
     It writes a life as a life, and numbers without a band to four digits.
     """

@@ -108,6 +108,12 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
         raise UsageError(
             f"view vibration: above={low:g} Hz is above the highest frequency of the samples: choose a lower one"
         )
+    for one in signals:
+        if not low < 0.5 / (one.time[1] - one.time[0]) and one is not own:
+            raise UsageError(
+                f"{one.name}: the envelope begins at {low:.4g} Hz, above all frequencies of the samples: measure more "
+                "often, or choose a lower one with above"
+            )
     lines = tuple(Mark(name, value, "x") for name, value in marks.items() if value > 0.0)
     end = max(_WIDTH * highest, 1.5 * low)
     panels = (
