@@ -7,6 +7,7 @@ from typing import get_args
 from sqlalchemy import CheckConstraint
 
 from lambda_core.domain.value_status import RowStatus
+from lambda_core.elements.ball import BALL
 
 GRADES = ("A", "A-", "B", "B-", "C", "D")
 STATUSES: tuple[str, ...] = get_args(RowStatus)
@@ -14,12 +15,11 @@ STATUSES: tuple[str, ...] = get_args(RowStatus)
 _RATED = ("dynamic_rating", "static_rating")
 _GRADED = ("dimensions", *_RATED, "catalogue", "geometry", "groove", "shoulder", "angle", "row_distance")
 _WITH_STATUS = (*_RATED, "geometry", "groove", "row_distance")
-KINDS = (
-    "angular contact",
-    "four-point",
-    "double row",
-    "self-aligning",
-)  # of bearings; a row that names none is a deep groove ball bearing
+_FIRST = ("angular contact", "four-point", "double row", "self-aligning")  # the order of databases that exist
+# Of bearings; a row that names none is a deep groove ball bearing.
+KINDS = (*_FIRST, *(name for name in BALL.kinds() if name not in (*_FIRST, "deep groove")))
+# Kinds of which the distance of the rows does not follow.
+_APART = tuple(name for name in KINDS if BALL.kinds()[name].rows == 2 and not BALL.kinds()[name].on_sphere)
 
 
 def check(name: str, condition: str, sentence: str) -> CheckConstraint:
@@ -62,6 +62,14 @@ def together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
     )
 
 
+def _is_none_of(names: tuple[str, ...]) -> str:
+    """Write that the kind is none of these."""
+    if len(names) == 1:
+        return f"(coalesce(kind, '') <> '{names[0]}')"
+    listed = ", ".join(f"'{name}'" for name in names)
+    return f"(coalesce(kind, '') NOT IN ({listed}))"
+
+
 def kinds() -> list[CheckConstraint]:
     """Require a known kind and its contact angle.
 
@@ -78,8 +86,8 @@ def kinds() -> list[CheckConstraint]:
         together("row_distance", ("row_distance_mm",)),
         check(
             "row_distance_of_kind",
-            "(row_distance_mm IS NULL) = (coalesce(kind, '') <> 'double row') AND coalesce(row_distance_mm, 1) > 0",
-            'row_distance_mm, above 0, belongs to the kind "double row", which needs it',
+            f"(row_distance_mm IS NULL) = {_is_none_of(_APART)} AND coalesce(row_distance_mm, 1) > 0",
+            f'row_distance_mm, above 0, belongs to the kind "{", ".join(_APART)}", which needs it',
         ),
     ]
 

@@ -11,6 +11,7 @@ from pydantic import Discriminator, Tag, field_validator, model_validator
 
 from lambda_core.case.option import Section, option
 from lambda_core.case.rollers import InlineRollers
+from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import (
     Angle,
@@ -26,6 +27,7 @@ from lambda_core.domain.units import (
     ThermalExpansion,
     parse,
 )
+from lambda_core.elements.ball.kinds import kinds
 
 _LONGEST_NAME = 200  # characters: names are compared with all of the catalogue
 _LIGHTEST = 1.0  # [kg/m3] of a solid or an oil: foams are heavier, and the program divides by it
@@ -76,13 +78,21 @@ class InlineGeometry(Section):
         "distance of the planes of the balls of two rows; of a self-aligning bearing it follows from the contact angle",
         gt=0.0,
     )
-    arrangement: Literal["O", "X", "spherical"] | None = option(
+    arrangement: Literal["O", "X", "spherical"] | str | None = option(
         None,
         "of two rows: O back to back, X face to face, spherical on one sphere of the outer ring (self-aligning); "
         "absent: O",
     )
     dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
     static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
+
+    @field_validator("arrangement")
+    @classmethod
+    def _of_a_kind(cls, text: str | None) -> str | None:
+        known = [name for kind in kinds().values() for name in kind.arrangements]
+        if text is not None and text not in known:
+            raise ValueError(unknown_name("arrangement", text, known))
+        return text
 
 
 class Fits(Section):

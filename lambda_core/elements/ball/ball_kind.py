@@ -116,6 +116,8 @@ class BallKind(BearingKind):
         Rows of balls; grooves of each ring for one row.
     arrangement : str
         Usual one of two rows.
+    arrangements : tuple of str
+        Those that a case may write for this kind.
     on_sphere : bool
         Whether the outer raceway is a sphere about the bearing's centre, which holds no tilt.
     one_sided : bool
@@ -148,6 +150,7 @@ class BallKind(BearingKind):
     rows: int = 1
     arcs: int = 1
     arrangement: str = ""
+    arrangements: tuple[str, ...] = ()
     on_sphere: bool = False
     one_sided: bool = False
     walls: tuple[float, float] = (0.22, 0.61)

@@ -108,6 +108,7 @@ KIND = BallKind(
     words=_words,
     rows=2,
     arrangement="O",
+    arrangements=_ARRANGEMENTS,
     filling=(177.0, 200.0),  # of each row
     # Double row deep groove ball bearings: "two minutes of arc"; of double row angular contact SKF says that only
     # forces between balls and raceways take a misalignment, without a number (general catalogue 6000, Russian, pages

@@ -119,6 +119,7 @@ KIND = BallKind(
     words=_words,
     rows=2,
     arrangement=_ARRANGEMENT,
+    arrangements=(_ARRANGEMENT,),
     on_sphere=True,
     filling=(220.0, 301.0),  # of each row, whose rings are swivelled out for it
     # 2.5 degrees of series 12 and 22, 3 of 13 and 23: SKF, general catalogue 6000, Russian, page 476, table 4.
