@@ -1,6 +1,6 @@
 """Run all checks: ``python -m tests [arguments of pytest]``.
 
-Style and layers while the solver compiles, then the tests on three processes; with arguments, only the tests
+Style and layers while the solver compiles, then the tests on four processes; with arguments, only the tests
 that they choose. Each part runs whatever became of the others.
 """
 
@@ -29,9 +29,9 @@ COMPILING = {
     "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
 }
 COLLECTING = {"collect": [PYTHON, "-m", "pytest", "--collect-only", "-qq"]}
-# One file stays in one process: what a file prepares for its tests is prepared once. A seventh of the time tests wait
-# (for programs, timers, helpers): one process more than the two cores of CI.
-TESTING = {"pytest": [PYTHON, "tests/second_try.py", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]}
+# One file stays in one process: what a file prepares for its tests is prepared once. A quarter of the time tests wait
+# (for programs, timers, helpers): two processes more than the two cores of CI.
+TESTING = {"pytest": [PYTHON, "tests/second_try.py", "-n", "4", "--dist", "loadfile", "--no-loadscope-reorder"]}
 
 
 def environment() -> dict[str, str]:

@@ -122,6 +122,7 @@ assert library.get_pointer_to_function(symbol) == address
 """
 
 
+@pytest.mark.full
 def test_a_part_of_the_solver_comes_from_its_machine_code_alone() -> None:
     core()  # whatever is compiled anew is on disk then
     done = subprocess.run([sys.executable, "-c", LOADED], capture_output=True, text=True, check=False)

@@ -46,6 +46,7 @@ def test_stiffness_is_the_slope_of_load_over_displacement(
     assert found == pytest.approx(slope, rel=0.02)
 
 
+@pytest.mark.full
 def test_clearance_is_fitted_to_stiffness() -> None:
     """Find a clearance from radial and tilting stiffness."""
     source = _case("SKF 6208", radial="2 kN", axial="500 N")

@@ -212,6 +212,7 @@ def test_an_export_by_motion_is_refused_before_it_begins(
     assert not said
 
 
+@pytest.mark.full
 def test_slopes_of_a_machine_are_those_of_differences(host: Any, machine_unit: Any) -> None:
     """Compare slopes with differences while the shaft speeds up.
 

@@ -142,6 +142,7 @@ def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
     assert "left: a self-aligning bearing follows every tilt of the shaft without resistance" in told
 
 
+@pytest.mark.full
 def test_three_bearings_with_loads_at_midspan() -> None:
     """Compare with 5/16, 22/16, 5/16 of each load.
 

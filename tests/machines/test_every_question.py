@@ -18,6 +18,9 @@ from lambda_cli.main import main
 import lambda_core as lb
 from lambda_core import api
 
+# What they compute has files of its own: tests/thermal/test_machine_network.py, tests/studies/test_machine_study.py,
+# tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py, tests/machines/test_machine_questions.py, ...
+pytestmark = pytest.mark.full
 RUN = (
     "solver.duration=6 ms", "output.checkpoint_interval=2 ms", "electric.seed=1", "bearings.left.depth.strips=7",
     "bearings.right.depth.strips=7", "output.interval=0.1 ms", 'connections.seal.at="160 mm"',
@@ -274,11 +277,6 @@ ROWS: dict[str, list[Step]] = {
         (["resume", "box.h5", "--duration", "7 ms", "--json", "-q"], '"finished"'),
     ],
 }  # fmt: skip
-LONG = {"study of runs, samples, sensitivity, search", "export fmu, iterate", "view, animate, report, cite"}
-LONG |= {"run at its own temperatures"}
-# What these compute has files of its own: tests/thermal/test_machine_network.py, tests/studies/test_machine_study.py,
-# tests/runs/test_crosscheck.py, tests/electric/test_machine_electric.py, tests/runs/test_machine_watch.py, ...
-LONG |= {"observers, events, depth, output", "study", "thermal", "cross-check", "electric", "units", "notebook"}
 ABOUT_ONE = ("stribeck", "compare", "electric-map")
 
 
@@ -313,7 +311,7 @@ def box(box_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("row", [pytest.param(row, marks=[pytest.mark.full] * (row in LONG)) for row in ROWS])
+@pytest.mark.parametrize("row", ROWS)
 def test_a_machine_of_two_bearings(row: str, box: Path, capsys: pytest.CaptureFixture[str]) -> None:
     if row == "cross-check":
         pytest.importorskip("sksundae")

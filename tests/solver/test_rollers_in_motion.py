@@ -202,6 +202,7 @@ def test_a_refusal_speaks_of_rollers() -> None:
     assert "ball" not in sentence
 
 
+@pytest.mark.full
 def test_cold_oil_has_one_torque_at_all_tolerances() -> None:
     """Compare power and skew of rollers in cold oil.
 
