@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, given_range, varied
-from lambda_core.analysis.band.loaded import LoadedBearing, loaded_in
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
     MEASURED,
@@ -27,11 +25,9 @@ from lambda_core.domain.units import from_si, parse
 from lambda_core.domain.written_values import Scale, scale_of
 from lambda_core.fitting.subjects import Subject, vocabulary
 from lambda_core.results.model_band import QUANTITIES
-from lambda_core.studies.job import point_model, shared_kernels
 
 if TYPE_CHECKING:
-    from lambda_core.model.machine_model import MachineModel
-    from lambda_core.studies.points import MachinePoint
+    from lambda_core.analysis.static_point import StaticPoint
 
 _SHARED = ("speed", "oil temperature", "oil level")  # conditions that are those of all bearings
 _MODES = 8
@@ -164,27 +160,22 @@ class MachineSubject(Subject):
         """
         del one
         moved = [change for graded, number in parameters for change in graded.changes(number)]
-        point = _solved(self.case_toml, (*changes, *moved))
+        point = self.point((*changes, *moved))
         return np.array([[self._read(point, name) for name in names]])
 
-    def _read(self, point: MachinePoint, name: str) -> float:
+    def _read(self, point: StaticPoint, name: str) -> float:
         owner, measured = self._readers[name]
         number = _temperature(point, owner, name) if not measured.response else _number(point, owner, measured.response)
         if number is None or not math.isfinite(number):
             raise SolverError(f"the equilibrium has no {name}")
         return number
 
-    def loaded(self, changes: Sequence[str]) -> tuple[MachineModel, dict[str, LoadedBearing]]:
-        """Return the changed model and its loaded bearings."""
-        point = _solved(self.case_toml, tuple(changes))
-        return point.model, loaded_in(point.model, point.state)
-
     def size(self, changes: Sequence[str], name: str, sizes: Mapping[tuple[str, str], float]) -> float:
         """Return the deviation of a column by those of bearings."""
         (owner, measured), kind = self._readers[name], self.kind(name)
         if owner or not kind:
             return super().size(changes, name, sizes)
-        point = _solved(self.case_toml, tuple(changes))
+        point = self.point(changes)
         each = {one: _number(point, one, measured.response) or 0.0 for one in point.model.bearing_models}
         return sum(each[one] * sizes.get((one, kind), 0.0) for one in each) / sum(each.values())
 
@@ -236,20 +227,7 @@ def _values(tables: Mapping[str, Any], path: Sequence[str]) -> Mapping[str, Any]
     return tables
 
 
-@lru_cache(maxsize=4)
-def _solved(case_toml: str, changes: tuple[str, ...]) -> MachinePoint:
-    """Solve a machine.
-
-    The last points are kept, as several quantities are read from one.
-    """
-    from lambda_core.analysis.thermal.temperatures import ready_machine_of
-    from lambda_core.studies.points import MachinePoint
-
-    model: MachineModel = ready_machine_of(point_model(case_toml, changes))  # type: ignore[arg-type]
-    return MachinePoint(model, shared_kernels())
-
-
-def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
+def _temperature(point: StaticPoint, bearing: str, column: str) -> float:
     """Return a computed temperature [degC].
 
     The case of the point has it.
@@ -261,7 +239,7 @@ def _temperature(point: MachinePoint, bearing: str, column: str) -> float:
     return from_si(parse(found, "temperature"), "temperature", "degC")
 
 
-def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
+def _number(point: Any, bearing: str, response: str) -> float | None:
     """Return a number of a machine.
 
     It may also be a number of one of the machine's bearings.
@@ -279,7 +257,7 @@ def _number(point: MachinePoint, bearing: str, response: str) -> float | None:
     return read(point)
 
 
-def _mode(point: MachinePoint, bearing: str, which: str, kind: str = "") -> float | None:
+def _mode(point: Any, bearing: str, which: str, kind: str = "") -> float | None:
     del bearing
     rising = [mode.frequency_Hz for mode in point.modes_at_speed if kind in ("", mode.kind)]
     return rising[int(which) - 1] if int(which) <= len(rising) else None

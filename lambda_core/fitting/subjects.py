@@ -8,13 +8,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lambda_core.analysis.band.graded import Graded, varied
-from lambda_core.analysis.band.loaded import LoadedBearing, loaded_bearings
 from lambda_core.analysis.band.model_band import bands_of, deviations, effects_of
 from lambda_core.analysis.band.quantities import (
     CONDITIONS,
@@ -26,20 +25,19 @@ from lambda_core.analysis.band.quantities import (
     error_quantity,
     no_measured,
 )
-from lambda_core.analysis.thermal.temperatures import ready_model, ready_rollers
+from lambda_core.analysis.thermal.temperatures import ready, ready_rollers
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
 from lambda_core.fitting.operating_points import ROLLER_QUANTITIES, OperatingPoints, roller_values
-from lambda_core.studies.job import resolve_point
+from lambda_core.studies.job import point_model, solved_point
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
+    from lambda_core.analysis.static_point import StaticPoint
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
-    from lambda_core.model.bearing_model import BearingModel
-    from lambda_core.model.machine_model import MachineModel
 
 
 class Subject(ABC):
@@ -77,9 +75,9 @@ class Subject(ABC):
         The shape is (positions of the balls, names).
         """
 
-    @abstractmethod
-    def loaded(self, changes: Sequence[str]) -> tuple[BearingModel | MachineModel, dict[str, LoadedBearing]]:
-        """Return the changed model and its loaded bearings."""
+    def point(self, changes: Sequence[str]) -> StaticPoint:
+        """Return the operating point of the changed case."""
+        return _solved(self.case_toml, tuple(changes))
 
     def owner(self, name: str) -> str:
         """Return the bearing that a quantity is that of.
@@ -102,10 +100,10 @@ class Subject(ABC):
         It follows from the ranges of all that is not fitted. Torques and losses of all bearings of a machine err
         together, as those of their laws do; how stiff and how loaded a machine is counts as known.
         """
-        (model, bearings), own = self.loaded(changes), tuple(fitted)
-        kinds, found = {name: self.kind(name) for name in names}, model.found_temperatures
+        point, own = self.point(changes), tuple(fitted)
+        kinds, found = {name: self.kind(name) for name in names}, point.model.found_temperatures
         sizes: dict[tuple[str, str], float] = {}
-        for bearing, one in bearings.items():
+        for bearing, one in point.loaded.items():
             wanted = dict.fromkeys(kinds[name] for name in names if kinds[name] and self.owner(name) in ("", bearing))
             if wanted:
                 local = [path.removeprefix(f"bearings.{bearing}.") for path in own]
@@ -133,8 +131,8 @@ class Subject(ABC):
         wanted = list(dict.fromkeys(kind for kind in kinds.values() if kind))
         if not wanted:
             return {}
-        (model, bearings), found = self.loaded(changes), {}
-        each = bands_of(model, bearings, wanted).bearings
+        point, found = self.point(changes), {}
+        each = bands_of(point.model, point.loaded, wanted).bearings
         for name, kind in kinds.items():
             owner = self.owner(name)
             owners = (owner,) if owner in each else each
@@ -142,6 +140,15 @@ class Subject(ABC):
             if bands:
                 found[name] = [sum(band.low for band in bands), sum(band.high for band in bands)]
         return found
+
+
+@lru_cache(maxsize=4)
+def _solved(case_toml: str, changes: tuple[str, ...]) -> StaticPoint:
+    """Return the operating point of a changed case.
+
+    The last points are kept, as several quantities are read from one.
+    """
+    return solved_point(ready(point_model(case_toml, changes, is_static=True), is_static=True))
 
 
 def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | None = None) -> Subject:
@@ -186,11 +193,6 @@ class BearingSubject(Subject):
     ) -> FloatArray:
         """Return predicted quantities at several positions of the balls."""
         return self._points.values(changes, parameters, names, one=one)
-
-    def loaded(self, changes: Sequence[str]) -> tuple[BearingModel, dict[str, LoadedBearing]]:
-        """Return the changed model and its bearing."""
-        model = ready_model(resolve_point(self.case_toml, tuple(changes), is_static=True), is_static=True)
-        return model, loaded_bearings(model)
 
 
 class RollerSubject(BearingSubject):

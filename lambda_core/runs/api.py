@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
-from lambda_core.analysis.thermal.temperatures import ready, ready_model, ready_rollers, resolved
-from lambda_core.case.case_io import is_machine, refuse_bearing
+from lambda_core.analysis.thermal.temperatures import ready, resolved
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.api import check
@@ -69,62 +67,27 @@ def quasistatic(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
+    from lambda_core.analysis.band.model_band import bands_or_reason
+    from lambda_core.analysis.rotor.bearing_alone import bearing_number
+    from lambda_core.analysis.static_point import static_point
+    from lambda_core.analysis.thermal.temperatures import ready_rollers
+    from lambda_core.results.roller_quasistatic import roller_quasistatic
     from lambda_core.runs.law_blame import naming_laws
 
-    if is_machine(source):
-        from lambda_core.analysis.rotor.api import machine_equilibrium
-        from lambda_core.analysis.rotor.bearing_alone import bearing_number
-        from lambda_core.analysis.thermal.temperatures import ready_machine_of
-
-        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-        if bearing is not None:
-            bearing_number(machine, bearing)  # before anything is solved
-        with naming_laws(*machine.bearing_models.values()):
-            solved = machine_equilibrium(machine, band=band, announce=announce)
-        return solved if bearing is None else solved.of_bearing(bearing)
-    refuse_bearing(bearing)
-    rollers = _roller_answer(source, overrides, announce, band=band)
-    if rollers is not None:
-        return rollers
-    from lambda_core.analysis.rating.engineering import rating_of
-    from lambda_core.discovery.api import registry
-    from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.solver.drivers.equilibrium import solve
-
-    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
-    with naming_laws(model):
-        found = solve(model, announce=announce)
-        answer = quasistatic_of(found, rating_of(found, registry().methods))
-        if not band:
-            return answer
-        from lambda_core.analysis.band.model_band import bands_or_reason
-
-        return answer.with_bands(bands_or_reason(model).bearings)
-
-
-def _roller_answer(
-    source: Any, overrides: Iterable[str], announce: Callable[[str], None] | None, *, band: bool
-) -> QuasiStatic | None:
-    """Return the answer of a roller bearing.
-
-    None where the source is no case of one.
-
-    Bearings that do not run in time have no band and no warnings of limits in motion.
-    """
-    from lambda_core.results.roller_quasistatic import roller_quasistatic
-
-    found = ready_rollers(source, overrides, announce)
-    if found is None:
-        return None
-    model, warm = found
-    with suppress(CaseError):  # else it does not run in time
-        warm = warm or ready_model(source, overrides, is_static=True)
-    answer = roller_quasistatic(model, warm)
-    if warm is None or not band:
-        return answer
-    from lambda_core.analysis.band.model_band import bands_or_reason
-
-    return answer.with_bands(bands_or_reason(warm).bearings)
+    try:
+        model = ready(source, overrides, announce, is_static=True)
+    except CaseError:  # rollers are at rest also under loads with which they do not run
+        if bearing is not None or (rollers := ready_rollers(source, overrides, announce)) is None:
+            raise
+        return roller_quasistatic(rollers[0])
+    if bearing is not None:
+        bearing_number(model, bearing)  # before anything is solved
+    with naming_laws(*model.bearing_models.values()):
+        point = static_point(model, announce)
+        found = point.summary
+        if band:
+            found = found.with_bands(bands_or_reason(point).bearings)
+    return found if bearing is None else found.of_bearing(bearing)
 
 
 @answers
@@ -284,7 +247,7 @@ def resume(
     UsageError
         When the file is no result, nothing is left to do, or the case or the code has changed.
     """
-    from lambda_core.domain.errors import CaseError, Problem
+    from lambda_core.domain.errors import Problem
     from lambda_core.domain.installed import OWN, project_of
     from lambda_core.runs.launch import relaunch
 

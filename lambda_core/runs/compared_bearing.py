@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from lambda_core.analysis.thermal.temperatures import ready_machine_of, ready_model, ready_rollers
-from lambda_core.case.case_io import is_machine, refuse_bearing
-from lambda_core.domain.errors import SolverError
+from lambda_core.analysis.rotor.bearing_alone import bearing_number
+from lambda_core.analysis.static_point import static_point
+from lambda_core.analysis.thermal.temperatures import ready, ready_rollers
+from lambda_core.domain.errors import CaseError, SolverError
 from lambda_core.views.method import MethodInputs, RollerMethodInputs
 
 if TYPE_CHECKING:
+    from lambda_core.analysis.static_point import BearingPoint
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.roller_case import RollerModel
     from lambda_core.results.roller_quasistatic import SolvedRollers
-    from lambda_core.solver.drivers.equilibrium import Equilibrium
 
 
 @dataclass(frozen=True)
@@ -69,79 +69,43 @@ def compared_bearing(
     """
     from lambda_core.results.roller_quasistatic import solve_rollers
 
-    if is_machine(source):
-        return _in_machine(ready_machine_of(source, overrides, announce), bearing, contamination, announce)  # type: ignore[arg-type]
-    refuse_bearing(bearing)
-    rollers = ready_rollers(source, overrides, announce)
-    if rollers is not None:
-        return _of_rollers(rollers[0], solve_rollers(rollers[0]), contamination)
-    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
-    return _of_balls(model, _solved(model, announce), contamination)
-
-
-def _in_machine(
-    machine: MachineModel, bearing: str | None, contamination: float | None, announce: Callable[[str], None] | None
-) -> ComparedBearing:
-    """Return one bearing of a machine at its pose there."""
-    from lambda_core.analysis.rotor.bearing_alone import alone_under_load, bearing_number
-    from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
-    from lambda_core.solver.drivers.machine_statics import solve_machine
-    from lambda_core.solver.drivers.roller_reaction import RollerReaction
-
-    number = bearing_number(machine, bearing)
-    state = solve_machine(machine, announce)
-    name, ring = machine.bearings[number].name, state.rings[number]
-    case = f"{machine.name}, {name}"
-    if isinstance(ring, RollerReaction):
-        found = rollers_on_shaft(ring)
-        one = _of_rollers(replace(found.model, name=case), found.solved, contamination)
-    else:
-        x, y, z = state.reactions[number][:3]
-        model = replace(alone_under_load(machine, state, number), name=case)
-        one = _of_balls(model, ring.equilibrium(), contamination, (math.hypot(y, z), abs(float(x))))
-    return replace(one, bearing=name)
-
-
-def _solved(model: BearingModel, announce: Callable[[str], None] | None) -> Equilibrium:
-    """Return the equilibrium of a bearing alone.
-
-    Without loads per ball the comparison would be of different cases: then a SolverError.
-    """
-    from lambda_core.solver.drivers.equilibrium import solve
-
     try:
-        return solve(model, announce=announce)
-    except SolverError as error:
+        model = ready(source, overrides, announce, is_static=True)
+    except CaseError:  # as for an operating point
+        if bearing is not None or (found := ready_rollers(source, overrides, announce)) is None:
+            raise
+        return _of_rollers("", found[0], solve_rollers(found[0]), contamination)
+    number = bearing_number(model, bearing)
+    point = list(static_point(model, announce).bearings.values())[number]
+    case = f"{model.name}, {point.name}" if point.name else model.name
+    try:
+        if point.rollers is None:
+            return _of_balls(point, case, contamination)
+        return _of_rollers(point.name, replace(point.rollers, name=case), point.solved_rollers, contamination)
+    except SolverError as error:  # without loads per ball the comparison would be of different cases
         raise SolverError(f"{model.name}: nothing to compare: {error}") from error
 
 
-def _of_balls(
-    model: BearingModel,
-    equilibrium: Equilibrium,
-    contamination: float | None,
-    loads: tuple[float, float] | None = None,
-) -> ComparedBearing:
-    """Return a bearing with balls.
-
-    `model` describes it; `loads` are those of a machine on it [N].
-    """
+def _of_balls(point: BearingPoint, case: str, contamination: float | None) -> ComparedBearing:
+    """Return a bearing with balls."""
     from lambda_core.analysis.rating.compare_methods import comparison_inputs
     from lambda_core.model.checks.describe import headline
 
+    model = point.alone
     clean, is_given = _clean(contamination, model.contamination, model.geometry.pitch_diameter)
     return ComparedBearing(
-        bearing="",
-        case=model.name,
+        bearing=point.name,
+        case=case,
         title=model.title,
         headline="\n".join(headline(model)),
         assumptions=model.assumptions,
-        inputs=comparison_inputs(equilibrium, contamination=clean, loads=loads),
+        inputs=comparison_inputs(point.equilibrium, contamination=clean, loads=point.loads),
         contamination=clean,
         contamination_given=is_given,
     )
 
 
-def _of_rollers(model: RollerModel, solved: SolvedRollers, contamination: float | None) -> ComparedBearing:
+def _of_rollers(name: str, model: RollerModel, solved: SolvedRollers, contamination: float | None) -> ComparedBearing:
     """Return a bearing with rollers."""
     from lambda_core.results.roller_quasistatic import headline_of
 
@@ -163,7 +127,7 @@ def _of_rollers(model: RollerModel, solved: SolvedRollers, contamination: float 
         contamination=clean,
     )
     return ComparedBearing(
-        bearing="",
+        bearing=name,
         case=model.name,
         title=model.title,
         headline=headline_of(model, radial, axial),

@@ -75,7 +75,7 @@ def estimate(model: BearingModel | MachineModel, announce: Callable[[str], None]
     simulated = max(times, key=lambda time: math.inf if time is None else time)
     trial = None if simulated is None else _trial(engine, turn, simulated)
     return Estimate(
-        equilibrium=begun.answer(), modes=begun.modes(), simulated_s=simulated,
+        equilibrium=begun.point.answer, modes=begun.point.modes, simulated_s=simulated,
         processor_s=None if trial is None else trial.seconds, basis=_basis(model.solver, simulated, turn, trial),
     )  # fmt: skip
 

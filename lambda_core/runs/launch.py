@@ -32,6 +32,7 @@ from lambda_core.solver.code_files import physics_key
 
 if TYPE_CHECKING:
     from lambda_core.analysis.electric.live import Live
+    from lambda_core.analysis.static_point import StaticPoint
 Announce = Callable[[str], None]
 Runnable = BearingModel | MachineModel
 
@@ -64,9 +65,7 @@ def launch(
     began = time.perf_counter()
     path = destination(model, out, overwrite)
     _check_end(model)
-    engine, provenance, attached = prepared(model, announce)
-    if band:
-        provenance = _with_bands(model, provenance, announce)
+    engine, provenance, attached = prepared(model, announce, band=band)
     return run(engine, provenance, path, overwrite=overwrite, report=report, attached=attached, began=began)
 
 
@@ -145,7 +144,9 @@ def destination(model: Runnable, out: Path | None, overwrite: bool) -> Path:
     return path
 
 
-def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
+def prepared(
+    model: Runnable, announce: Announce | None, *, band: bool = False
+) -> tuple[RunEngine, Provenance, Attachments]:
     """Return the engine at t = 0 and origin.
 
     Also return what is computed from its samples.
@@ -161,10 +162,11 @@ def prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Pro
         name: dataclasses.replace(origin, kernel_keys={**origin.kernel_keys, **attached.watches[name].keys(), **shared})
         for name, origin in provenance.bearings.items()
     }
-    return BearingsInMotion(engine), dataclasses.replace(provenance, bearings=origins), attached
+    provenance = dataclasses.replace(provenance, bearings=origins)
+    return BearingsInMotion(engine), _with_bands(begun.point, provenance, announce) if band else provenance, attached
 
 
-def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | None) -> Provenance:
+def _with_bands(point: StaticPoint, provenance: Provenance, announce: Announce | None) -> Provenance:
     """Return the origin of a run with bands.
 
     They are the model bands of each bearing.
@@ -173,7 +175,7 @@ def _with_bands(model: Runnable, provenance: Provenance, announce: Announce | No
 
     if announce is not None:
         announce("computing the model band from the ranges of parameters and laws")
-    bands = bands_or_reason(model).bearings.values()
+    bands = bands_or_reason(point).bearings.values()
     origins = {
         name: dataclasses.replace(origin, band=band)
         for (name, origin), band in zip(provenance.bearings.items(), bands, strict=True)

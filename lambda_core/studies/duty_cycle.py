@@ -33,7 +33,7 @@ from lambda_core.domain.units import Time
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.studies.job import static_point
+from lambda_core.studies.job import solved_point
 from lambda_core.studies.load_spectrum import read_spectrum
 
 if TYPE_CHECKING:
@@ -400,7 +400,7 @@ def _tables(path: Path) -> dict[str, Any]:
 
 def _solved(case: Case | MachineCase, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
     """Solve a phase."""
-    point = static_point(ready(apply_overrides(case, changes), announce=announce, is_static=True), announce)
+    point = solved_point(ready(apply_overrides(case, changes), announce=announce, is_static=True), announce)
     return SolvedPhase(point.speed_rpm, point.answer.each, point.model.warnings)
 
 

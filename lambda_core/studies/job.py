@@ -20,13 +20,13 @@ from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.plugin_errors import failures_so_far
 
 if TYPE_CHECKING:
+    from lambda_core.analysis.static_point import StaticPoint
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
     from lambda_core.solver.drivers.machine_statics import SharedKernels
-    from lambda_core.studies.points import AlonePoint, MachinePoint, StaticPoint
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -176,17 +176,14 @@ def kernels_of(model: BearingModel) -> Kernels:
     return shared_kernels().of(model)
 
 
-def static_point(model: BearingModel | MachineModel, announce: Announce = None) -> AlonePoint | MachinePoint:
-    """Solve a bearing or a machine at a point.
+def solved_point(model: BearingModel | MachineModel, announce: Announce = None) -> StaticPoint:
+    """Return the operating point of a model.
 
-    Raises
-    ------
-    SolverError
-        When there is no solution.
+    It uses the compiled laws of this process.
     """
-    from lambda_core.studies.points import solved_point
+    from lambda_core.analysis.static_point import static_point
 
-    return solved_point(model, shared_kernels(), announce)
+    return static_point(model, announce, shared_kernels())
 
 
 def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) -> dict[str, float | None]:
@@ -197,7 +194,7 @@ def static_values(model: BearingModel | MachineModel, names: tuple[str, ...]) ->
     SolverError
         When there is no solution.
     """
-    return values_of(static_point(model), model, names)
+    return values_of(solved_point(model), model, names)
 
 
 def values_of(
@@ -207,9 +204,10 @@ def values_of(
 
     UsageError for a row of a comparison method that does not exist.
     """
+    from lambda_core.studies.method_columns import method_columns
     from lambda_core.studies.responses import evaluate, responses_of
 
-    rows = {name: value for name, (value, _, _) in point.columns(names).items()}
+    rows = {name: value for name, (value, _, _) in method_columns(point, names).items()}
     return evaluate(names, point, rows, responses_of(model))
 
 

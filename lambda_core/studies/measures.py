@@ -16,8 +16,9 @@ from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.convergence import window_of
 
 if TYPE_CHECKING:
+    from lambda_core.analysis.static_point import BearingPoint
     from lambda_core.results.reader import Result
-    from lambda_core.studies.points import BearingPoint, DynamicPoint
+    from lambda_core.studies.points import DynamicPoint
 
 _INNER = RINGS.index("inner")
 _BINS = 72  # over azimuth: 5 degrees each

@@ -34,9 +34,9 @@ from lambda_core.studies import measures
 from lambda_core.studies.points import DynamicPoint
 
 if TYPE_CHECKING:
+    from lambda_core.analysis.static_point import StaticPoint
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.studies.points import StaticPoint
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"

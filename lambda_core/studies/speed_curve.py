@@ -312,6 +312,8 @@ def _skf(found: Any) -> float | None:
     from lambda_core.analysis.rating.engineering import rating_of
     from lambda_core.discovery.api import registry
 
+    if found.context.model.rollers is not None:
+        return None  # SKF's model is asked about balls
     return rating_of(
         found, {name: method for name, method in registry().methods.items() if name == "skf"}
     ).skf_torque_Nmm

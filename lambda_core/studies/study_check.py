@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError
 from lambda_core.studies.definition import Study
 from lambda_core.studies.design import Coordinate, Plan, Point
-from lambda_core.studies.job import point_model, static_point, static_values, values_of
+from lambda_core.studies.job import point_model, solved_point, static_values, values_of
 from lambda_core.studies.responses import (
     Response,
     bearing_names,
@@ -289,12 +289,13 @@ def _probe(
     """
     from lambda_core.analysis.thermal.temperatures import ready
     from lambda_core.runs.estimate import estimate as estimate_run
+    from lambda_core.studies.method_columns import method_columns
 
     asked = names if study.mode == "quasi-static" else rows
     warm = ready(model)
-    point = static_point(warm, announce)
+    point = solved_point(warm, announce)
     values_of(point, warm, asked)  # compiles or loads, also a circuit; not timed
-    columns = point.columns(rows)
+    columns = method_columns(point, rows)
     start = time.perf_counter()
     static_values(ready(point_model(model.case_toml, ())), asked)
     seconds = time.perf_counter() - start

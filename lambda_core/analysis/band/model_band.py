@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lambda_core.analysis.band.effects import Effect, Effects
-from lambda_core.analysis.band.loaded import LoadedBearing, loaded_bearings, loaded_in
 from lambda_core.analysis.band.readings import READ, UNITS_OF
 from lambda_core.analysis.band.temperature_effects import GIVEN, LOSS, BearingEffects, following
+from lambda_core.analysis.static_point import LoadedBearing, StaticPoint, static_point
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.results.model_band import (
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-    from lambda_core.solver.drivers.machine_statics import MachineState
 
 _NORMAL = 1.6448536269514722  # standard deviations of a normal distribution within which 90 % lie
 _LEAST_SHARE = 0.02  # of the variance of a contributor that is named
@@ -89,18 +88,15 @@ def model_band(
         announce("computing the model band from the ranges of parameters and laws")
     model = ready(source, overrides, announce, is_static=True)
     number = None if bearing is None else bearing_number(model, bearing)
-    bands = bands_of(model, loaded_bearings(model, announce), quantities, number)
+    bands = bands_of(model, static_point(model, announce).loaded, quantities, number)
     return bands.bearings.get(bearing or "", bands)  # a bearing alone has the empty name
 
 
-def bands_or_reason(model: BearingModel | MachineModel, state: MachineState | None = None) -> MachineBand:
-    """Return the bands of all bearings or their absence.
-
-    `state` is the equilibrium of a machine that is solved already.
-    """
+def bands_or_reason(point: StaticPoint) -> MachineBand:
+    """Return the bands of all bearings or their absence."""
+    model = point.model
     try:
-        loaded = loaded_bearings(model) if state is None else loaded_in(cast("MachineModel", model), state)
-        return bands_of(model, loaded)
+        return bands_of(model, point.loaded)
     except SolverError as error:
         absent = ModelBand(case=model.name, coverage=COVERAGE, bands=[], left_out=[f"no model band: {error}"])
         return MachineBand(case=model.name, bearings=dict.fromkeys(model.bearing_models, absent))
@@ -128,7 +124,7 @@ def bands_of(
 
 def temperature_band(model: BearingModel | MachineModel) -> ModelBand:
     """Return the bands of all computed temperatures [degC]."""
-    loaded, found = loaded_bearings(model), model.found_temperatures
+    loaded, found = static_point(model).loaded, model.found_temperatures
     each = [effects_of(one, (), found) for one in loaded.values()]
     _, warmer = _effects(each, found, list(loaded))
     bands = list(node_bands(found, warmer).values()) if warmer else []

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.analysis.band.loaded import loaded_bearings
 from lambda_core.analysis.band.model_band import bands_of
 from lambda_core.analysis.band.neighbours import interpolated, spread_out
+from lambda_core.analysis.static_point import static_point
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError
 from lambda_core.results.model_band import FIELDS, MachineBand
@@ -55,7 +55,7 @@ def bands_over(
     for row in spread_out(places, most) if len(places) else ():
         try:
             model = model_at(row)
-            bands = bands_of(model, loaded_bearings(model))
+            bands = bands_of(model, static_point(model).loaded)
         except LambdaError:  # this point has no solution, or only its result is known
             continue
         logarithms.append(_logarithms(bands))

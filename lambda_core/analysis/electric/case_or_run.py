@@ -26,12 +26,11 @@ from lambda_core.case.case_io import read_case, toml_tables
 from lambda_core.case.electric import Electric
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
-from lambda_core.model.bearing_model import BearingModel, Solver
+from lambda_core.model.bearing_model import Solver
 from lambda_core.results.convergence import window as averaged
-from lambda_core.solver.drivers.bearing_reaction import held
-from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 
 if TYPE_CHECKING:
+    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Announce
@@ -55,26 +54,13 @@ def electric_of_model(
     SolverError
         When there is no equilibrium, or the circuit cannot be solved.
     """
+    from lambda_core.analysis.static_point import static_point
+
     for one in model.bearing_models.values():
         spins(one)  # refuses rings at rest before anything is solved
-    found = [equilibria(one, announce=announce) for one in _in_place(model, announce)]
+    each = static_point(model, announce).bearings.values()
+    found = [equilibria(one.in_place, announce=announce) for one in each]
     return electric_of_equilibria(circuit_bearings(model), found, announce, window=window)
-
-
-def _in_place(model: BearingModel | MachineModel, announce: Announce) -> list[BearingModel]:
-    """Return every bearing where its balls pass.
-
-    A bearing alone finds its place under each position of the balls. The rings of a machine keep theirs in its
-    equilibrium.
-    """
-    if isinstance(model, BearingModel):
-        return [model]
-    return held_bearings(model, solve_machine(model, announce))
-
-
-def held_bearings(machine: MachineModel, state: MachineState) -> list[BearingModel]:
-    """Return a solved machine's bearings with held rings."""
-    return [held(one.model, state.pose(machine, i).tolist()) for i, one in enumerate(machine.bearings)]
 
 
 def electric_of_equilibria(

@@ -10,36 +10,10 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
-    from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
     from lambda_core.analysis.rotor.machine_modes import MachineModes
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
-
-
-@answers
-@one_blas_thread()
-def machine_equilibrium(
-    source: Source | MachineModel,
-    overrides: Iterable[str] = (),
-    *,
-    band: bool = False,
-    announce: Callable[[str], None] | None = None,
-) -> MachineEquilibrium:
-    """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
-    from lambda_core.analysis.rotor.machine_equilibrium import equilibrium_of
-    from lambda_core.analysis.thermal.temperatures import ready_machine_of
-    from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
-    from lambda_core.solver.drivers.preload import preloads
-
-    model, kernels = ready_machine_of(source, overrides, announce), SharedKernels(announce)
-    state = solve_machine(model, announce, kernels)
-    found = equilibrium_of(model, state, preload=preloads(model, kernels))
-    if not band:
-        return found
-    from lambda_core.analysis.band.model_band import bands_or_reason
-
-    return found.with_bands(bands_or_reason(model, state).bearings)
 
 
 @answers
@@ -73,15 +47,13 @@ def modes(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.analysis.rotor.machine_modes import modes_of
+    from lambda_core.analysis.rotor.machine_point import MachinePoint
     from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.case.case_io import is_machine
-    from lambda_core.solver.drivers.machine_statics import solve_machine
 
     if not is_machine(source):
         raise UsageError(
             "modes need a shaft, and this case has one bearing without a shaft: "
             "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
         )
-    model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
-    return modes_of(model, solve_machine(model, announce))
+    return MachinePoint(ready_machine_of(source, overrides, announce), announce).modes  # type: ignore[arg-type]

@@ -10,11 +10,11 @@ from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
-from lambda_core.model.machine_model import MachineModel
-from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
 
 if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.machine_statics import MachineState
 
 
 def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
@@ -56,10 +56,9 @@ def bearing_alone(
     Its inner ring is free along x, y and z and carries the load; its tilts are held where shaft and housing hold them,
     as is x of cylindrical rollers. A bearing that is alone already is returned as it is.
     """
-    number = bearing_number(model, name)
-    if isinstance(model, BearingModel):
-        return model
-    return alone_under_load(model, solve_machine(model, announce), number)
+    from lambda_core.analysis.static_point import static_point
+
+    return list(static_point(model, announce).bearings.values())[bearing_number(model, name)].alone
 
 
 def bearing_of_run(result: Result) -> BearingModel:

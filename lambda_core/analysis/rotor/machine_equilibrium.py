@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
-from typing import Any, Self, cast
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 from pydantic import Field
 
-from lambda_core.analysis.rating.engineering import mounted_rating
 from lambda_core.analysis.rotor.bearing_alone import number_among
 from lambda_core.analysis.rotor.machine_modes import AXES, six
-from lambda_core.analysis.rotor.rollers_on_shaft import rollers_on_shaft
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.number_text import digits
 from lambda_core.domain.unit_systems import SI, UnitSystem
@@ -34,11 +31,13 @@ from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
 from lambda_core.results.text import line
 from lambda_core.results.verdict import Verdict
-from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.machine_statics import MachineState
 from lambda_core.solver.drivers.preload import Preload, first_contact
-from lambda_core.solver.drivers.roller_reaction import RollerReaction
 from lambda_core.solver.drivers.structure import point_on, static_rows, stretch
+
+if TYPE_CHECKING:
+    from lambda_core.analysis.rotor.machine_point import MachinePoint, MountedPoint
+    from lambda_core.model.roller_case import RollerModel
 
 
 class MountedState(Record):
@@ -221,6 +220,14 @@ class MachineEquilibrium(StaticAnswer):
         """
         return [*self.warnings, *(f"{one.name}: {warning}" for one in self.bearings for warning in one.warnings)]
 
+    def preloaded(self, found: Mapping[str, Preload]) -> Self:
+        """Return the same with the preload of its bearings."""
+        each = [
+            one.model_copy(update={"preload_force_N": own.force, "lift_off_N": own.lift_off}) if own else one
+            for one, own in ((one, found.get(one.name)) for one in self.bearings)
+        ]
+        return self.model_copy(update={"bearings": each})
+
     def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
         """Return the same with the model bands of its bearings."""
         each = [one.with_band(bands[one.name]) for one in self.bearings]
@@ -285,23 +292,11 @@ class MachineEquilibrium(StaticAnswer):
         return f"<MachineEquilibrium {self.case}, {self.speed_rpm:.5g} 1/min, radial loads {loads}>"
 
 
-def equilibrium_of(
-    model: MachineModel,
-    state: MachineState,
-    equilibria: Sequence[Equilibrium] | None = None,
-    preload: Mapping[str, Preload] = MappingProxyType({}),
-) -> MachineEquilibrium:
-    """Put the equilibrium into the units of the interface.
-
-    `equilibria` are those of the bearings with the friction of their balls; by default they are solved.
-    """
-    bearings = [
-        _rollers(model, state, i, ring)
-        if isinstance(ring, RollerReaction)
-        else _bearing(model, state, i, equilibria[i] if equilibria else ring.equilibrium())
-        for i, ring in enumerate(state.rings)
-    ]
-    bearings = [one if one.name not in preload else _preloaded(one, preload[one.name]) for one in bearings]
+def equilibrium_of(point: MachinePoint) -> MachineEquilibrium:
+    """Put the equilibrium into the units of the interface."""
+    model, state = point.model, point.state
+    pairs = zip(model.bearings, point.bearings.values(), strict=True)
+    bearings = [_bearing(mounted, one, state) for mounted, one in pairs]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     lives = [life for b in bearings if (life := b.rating.reference_life_h) is not None]
@@ -336,10 +331,6 @@ def equilibrium_of(
     ).of_model(model)
 
 
-def _preloaded(one: BearingEquilibrium, found: Preload) -> BearingEquilibrium:
-    return one.model_copy(update={"preload_force_N": found.force, "lift_off_N": found.lift_off})
-
-
 def _moved(motion: FloatArray) -> BodyMoved:
     return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
 
@@ -357,58 +348,51 @@ def _listed(values: FloatArray) -> Any:
     return values.tolist()
 
 
-def _bearing(model: MachineModel, state: MachineState, index: int, found: Equilibrium) -> BearingEquilibrium:
+def _bearing(bearing: MountedBearing, point: MountedPoint, state: MachineState) -> BearingEquilibrium:
     """Return what there is to say of one bearing."""
-    bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
-    own = bearing_statics(found, mounted_rating(model, state, index, found), float(np.hypot(*pose[3:])))
-    own["warnings"] = _warnings(bearing, found, own, reaction, pose)
+    own = _of_balls(bearing, point) if point.rollers is None else _of_rollers(bearing, point, point.rollers)
+    reaction, pose = point.reaction, point.pose
+    return BearingEquilibrium(
+        **own,
+        name=bearing.name,
+        position_mm=1e3 * bearing.position,
+        radial_load_N=float(np.hypot(*reaction[1:3])),
+        axial_load_N=float(-reaction[0]),
+        force_N=_listed(reaction[:3]),
+        moment_Nm=_listed(reaction[3:]),
+        displacement_um=[1e6 * float(pose[0] - first_contact(bearing)), *_listed(1e6 * pose[1:3])],
+        misalignment_mrad=_listed(1e3 * pose[3:]),
+        outer_ring_um=_listed(1e6 * state.outer[point.number, :3]),
+        stiffness=six(state.stiffness[point.number]),
+    )
+
+
+def _of_balls(bearing: MountedBearing, point: MountedPoint) -> dict[str, Any]:
+    """Return the numbers of a bearing with balls."""
+    found = point.equilibrium
+    own = bearing_statics(found, point.rating, float(np.hypot(*point.pose[3:])))
+    own["warnings"] = _warnings(bearing, point, own)
     # Friction follows from a steady motion of the balls; where there is none, torque and power are those of no motion.
     own["friction_torque_Nmm"] = own["friction_torque_Nmm"] if found.converged else None
     own["power_loss_W"] = finite(float(found.losses.sum())) if found.converged else None
     clearance = None if bearing.takes and bearing.nominal_angle else 1e6 * bearing.model.geometry.clearance
-    return BearingEquilibrium(**own, **_in_machine(bearing, state, index, pose, reaction), clearance_um=clearance)
+    return {**own, "clearance_um": clearance}
 
 
-def _rollers(model: MachineModel, state: MachineState, index: int, ring: RollerReaction) -> BearingEquilibrium:
+def _of_rollers(bearing: MountedBearing, point: MountedPoint, rollers: RollerModel) -> dict[str, Any]:
     """Return the numbers of a bearing with rollers."""
-    bearing, reaction, pose = model.bearings[index], state.reactions[index], state.pose(model, index)
-    own = rollers_on_shaft(ring).statics
-    clearance = None if ring.rollers.contact_angle else 1e6 * ring.rollers.clearance
-    own["title"] = bearing.model.title
-    return BearingEquilibrium(**own, **_in_machine(bearing, state, index, pose, reaction), clearance_um=clearance)
+    clearance = None if rollers.bearing.contact_angle else 1e6 * rollers.bearing.clearance
+    return {**point.roller_statics, "title": bearing.model.title, "clearance_um": clearance}
 
 
-def _in_machine(
-    bearing: MountedBearing, state: MachineState, index: int, pose: FloatArray, reaction: FloatArray
-) -> dict[str, Any]:
-    """Return place, load and stiffness of a bearing.
-
-    They do not depend on its rolling elements.
-    """
-    return {
-        "name": bearing.name,
-        "position_mm": 1e3 * bearing.position,
-        "radial_load_N": float(np.hypot(*reaction[1:3])),
-        "axial_load_N": float(-reaction[0]),
-        "force_N": _listed(reaction[:3]),
-        "moment_Nm": _listed(reaction[3:]),
-        "displacement_um": [1e6 * float(pose[0] - first_contact(bearing)), *_listed(1e6 * pose[1:3])],
-        "misalignment_mrad": _listed(1e3 * pose[3:]),
-        "outer_ring_um": _listed(1e6 * state.outer[index, :3]),
-        "stiffness": six(state.stiffness[index]),
-    }
-
-
-def _warnings(
-    bearing: MountedBearing, found: Equilibrium, own: Mapping[str, Any], reaction: FloatArray, pose: FloatArray
-) -> list[str]:
+def _warnings(bearing: MountedBearing, point: MountedPoint, own: Mapping[str, Any]) -> list[str]:
     """Return warnings of exceeded limits, ratings first."""
-    model, tilt = bearing.model, float(np.hypot(*pose[3:]))
+    model, tilt = bearing.model, float(np.hypot(*point.pose[3:]))
     told = [
-        *load_warnings(model, float(np.hypot(*reaction[1:3])), abs(float(-reaction[0]))),
+        *load_warnings(model, *point.loads),
         *warnings(1e9 * own["max_pressure_GPa"], own["shoulders"], tilt, model.geometry.kind.name, on_shaft=True),
         *operating_warnings(model, on_shaft=True),
     ]
-    if not found.converged:
+    if not point.equilibrium.converged:
         told.append("the balls have no steady motion at this load: no friction torque")
     return told

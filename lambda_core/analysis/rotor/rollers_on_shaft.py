@@ -1,9 +1,8 @@
-"""Answer for one roller bearing of a machine."""
+"""Take a roller bearing out of a machine."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,44 +11,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.model.laws.roller_dielectric import dielectric_of_model
 from lambda_core.model.laws.roller_laws import friction_of_model
 from lambda_core.model.roller_case import RollerModel, friction_parameters
-from lambda_core.results.rating import Rating
-from lambda_core.results.roller_quasistatic import SolvedRollers, roller_statics, solve_rollers
 from lambda_core.solver.drivers.roller_reaction import RollerReaction
-
-
-@dataclass(frozen=True)
-class RollersOnShaft:
-    """A roller bearing at its pose in a machine.
-
-    Attributes
-    ----------
-    model : RollerModel
-        Geometry, oil and surfaces.
-    solved : SolvedRollers
-        Loads of slices and ribs, speeds, friction.
-    statics : dict
-        The fields of :class:`~lambda_core.results.quasistatic.BearingStatics`.
-    """
-
-    model: RollerModel
-    solved: SolvedRollers
-    statics: dict[str, Any]
-
-    @property
-    def rating(self) -> Rating:
-        """Lives and safety."""
-        found: Rating = self.statics["rating"]
-        return found
-
-
-def rollers_on_shaft(ring: RollerReaction) -> RollersOnShaft:
-    """Return a roller bearing's answer in a machine.
-
-    It holds at the last pose of its rings, like that of a bearing that is alone.
-    """
-    model, alone = ring.model, taken_out(ring)
-    solved = solve_rollers(alone)
-    return RollersOnShaft(alone, solved, roller_statics(alone, solved, model, on_shaft=True))
 
 
 def taken_out(ring: RollerReaction) -> RollerModel:

@@ -142,13 +142,13 @@ def _start_of(result: Result) -> tuple[Any, Any] | None:
 
     They come from its case; the result is None where it cannot be solved any more.
     """
-    from lambda_core.analysis.rotor.api import machine_equilibrium
+    from lambda_core.analysis.static_point import static_point
     from lambda_core.case.case_io import toml_tables
     from lambda_core.model.resolve_machine import resolve_machine
 
     try:
         model = resolve_machine(toml_tables(result.case_toml, result.case))
-        return model, machine_equilibrium(model)
+        return model, static_point(model).summary
     except LambdaError as error:
         log.warning("the equilibrium at the start is not shown: %s", error)
         return None
