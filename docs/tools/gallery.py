@@ -124,11 +124,11 @@ PICTURES = (
         "6319",
     ),
     Picture(
-        "ball-speeds",
+        "element-speeds",
         "Speeds of the balls",
         "Orbital speed and spin over the kinematic ones; the unloaded balls skid.",
-        "lambda-bearing view radial.h5 ball-speeds",
-        "radial-ball-speeds.png",
+        "lambda-bearing view radial.h5 element-speeds",
+        "radial-element-speeds.png",
         "6319",
     ),
     Picture(

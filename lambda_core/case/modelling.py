@@ -92,7 +92,7 @@ class Depth(Section):
     It sets which parts move, and how finely a contact is divided.
     """
 
-    cage: bool = option(True, "the cage is a body; off: neighbouring balls touch each other instead")
+    cage: bool = option(True, "the cage is a body; off: neighbours touch each other instead")
     strips: int = option(31, "strips across the contact ellipse, along its major axis", ge=3, le=201)
     rows: int = option(1, "cells along rolling in each strip; 1 is the slice model", ge=1, le=201)
 

@@ -123,7 +123,7 @@ class PartTemperatures(Section):
     reference: Temperature = option("20 degC", "temperature at which clearance and diameters were measured")
     inner_ring: Temperature | None = option(None, "inner ring")
     outer_ring: Temperature | None = option(None, "outer ring")
-    balls: Temperature | None = option(None, "balls")
+    balls: Temperature | None = option(None, "balls or rollers")
     shaft: Temperature | None = option(None, "shaft; absent: as the inner ring")
     housing: Temperature | None = option(None, "housing; absent: as the outer ring")
 
@@ -231,7 +231,7 @@ class Materials(Section):
 
     inner: MaterialChoice = option("100Cr6", "inner ring")
     outer: MaterialChoice = option("100Cr6", "outer ring")
-    balls: MaterialChoice = option("100Cr6", 'balls; "Si3N4" makes a hybrid bearing')
+    balls: MaterialChoice = option("100Cr6", 'balls or rollers; "Si3N4" makes a hybrid bearing')
     cage: MaterialChoice | None = option(None, "cage; absent: the material of the cage type")
 
 

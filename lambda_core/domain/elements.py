@@ -18,12 +18,13 @@ DOFS = (*TRANSLATIONS, *TILTS, SPIN)
 POSE = (*TRANSLATIONS, *TILTS)  # of one ring against another [m, rad]
 INNER, OUTER, CAGE = range(len(BODIES))  # places of a bearing's bodies in every table of bodies
 
-RACEWAYS = {"ball_inner": "balls and inner raceway", "ball_outer": "balls and outer raceway"}
+# Keys of case files say ball since the first cases, and mean every rolling element.
+RACEWAYS = {"ball_inner": "rolling elements and inner raceway", "ball_outer": "rolling elements and outer raceway"}
 RIBS = {"rib_inner": "ends of rollers and inner ribs", "rib_outer": "ends of rollers and outer ribs"}
-POCKETS = {"ball_cage": "balls and cage pockets"}
-NEIGHBOURS = {"ball_ball": "neighbouring balls, where there is no cage"}
+POCKETS = {"ball_cage": "rolling elements and cage pockets"}
+NEIGHBOURS = {"ball_ball": "neighbouring rolling elements, where there is no cage"}
 LANDS = {"cage_inner": "cage and inner ring's land", "cage_outer": "cage and outer ring's land"}
-OIL = {"fluid_drag": "oil on the balls"}
+OIL = {"fluid_drag": "oil on the rolling elements"}
 # Force elements of plugins, each under a name of its own in the section [elements] of a case.
 LINKS = {"elements": "between two bodies, or a body and the ground"}
 # Loads, speeds and motions whose course over time a law gives.

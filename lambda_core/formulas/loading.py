@@ -15,13 +15,13 @@ CARRYING = 0.01
 def carries(inner: ArrayLike) -> NDArray[np.bool_]:
     """Mark the balls that carry load.
 
-    The load acts between the rings; see :func:`loaded_balls`.
+    The load acts between the rings; see :func:`loaded_elements`.
     """
     load = np.asarray(inner, float)
     return np.asarray(load > CARRYING * load.max(initial=0.0))
 
 
-def loaded_balls(inner: ArrayLike) -> int:
+def loaded_elements(inner: ArrayLike) -> int:
     """Count the balls that carry load between the rings.
 
     Parameters

@@ -17,11 +17,11 @@ from lambda_core.results.verdict import Verdict
 
 
 class Contact(Record):
-    """Ball-raceway contact at the end of the run."""
+    """Contact of an element with a raceway at the end."""
 
-    ball: int = Field(description="number of the ball, from 1")
+    element: int = Field(description="number of the ball or roller, from 1")
     ring: Ring
-    azimuth_deg: float = Field(description="azimuth of the ball from +y towards +z, 0..360")
+    azimuth_deg: float = Field(description="azimuth of the element from +y towards +z, 0..360")
     load_N: float
     contact_angle_deg: float
     film_um: float | None = Field(description="central film thickness; null without contact")
@@ -36,7 +36,7 @@ CONTACT_UNITS = {
 class StartState(Record):
     """The quasi-static state that the run started from."""
 
-    loaded_balls: int = quantity(
+    loaded_elements: int = quantity(
         "rolling elements that the inner ring loads with more than 1 % of its largest contact load",
         label="rolling elements that the inner ring loads", column="loaded elements", decimals=0, group="contact",
     )  # fmt: skip
@@ -115,7 +115,7 @@ class BearingSummary(Banded):
         "contact angles about their own axes, weighted by load",
         label="kinematic cage speed over inner ring speed", decimals=4, group="cage",
     )  # fmt: skip
-    contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
+    contacts: list[Contact] = Field(description="every contact with a raceway at the end state")
     inner_ring_displacement_um: list[float | None] = quantity(
         "mean position x, y, z", "um", label="inner ring displacement", column="inner ring x, y, z", decimals=2,
         group="place", axes="xyz",

@@ -16,7 +16,7 @@ from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.between_rings import between_rings
-from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.formulas.loading import CARRYING, Ring, largest_contact, loaded_elements
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.geometry.axial_play import axial_play
 from lambda_core.model.laws.time_functions import initial
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 class RollerLoad(Record):
     """Loads of one roller."""
 
-    roller: int
+    roller: int = Field(description="number of the roller, from 1")
     azimuth_deg: float
     inner_N: float
     outer_N: float
@@ -81,7 +81,7 @@ class BearingStatics(Banded):
 
     title: str
     verdict: Verdict | None = Field(description="against required life and limits", default=None)
-    loaded_balls: int = same_as(StartState, "loaded_balls")
+    loaded_elements: int = same_as(StartState, "loaded_elements")
     max_load_N: float = same_as(StartState, "max_load_N")
     max_load_ring: Ring = same_as(StartState, "max_load_ring")
     max_pressure_GPa: float = same_as(StartState, "max_pressure_GPa")
@@ -96,8 +96,8 @@ class BearingStatics(Banded):
         BearingSummary, "power_loss_W", "of the friction, without the cage", default=None
     )
     orbit_speed_ratio: float | None = quantity(
-        "mean orbital speed of the loaded balls over inner ring speed",
-        label="orbital speed of the balls over inner ring speed", decimals=4, group="cage",
+        "mean orbital speed of the loaded elements over inner ring speed",
+        label="orbital speed of the elements over inner ring speed", decimals=4, group="cage",
     )  # fmt: skip
     film_um: list[float] = same_as(BearingSummary, "film_um", "smallest and largest central film under load")
     film_parameter: list[float] = same_as(BearingSummary, "film_parameter", "smallest and largest Lambda under load")
@@ -249,10 +249,10 @@ class QuasiStatic(BearingStatics, StaticAnswer):
 
         return quasistatic_text(self, width, units)
 
-    def plot(self, name: str = "ball-loads", **options: Any) -> Any:
+    def plot(self, name: str = "element-loads", **options: Any) -> Any:
         """Return a view as a matplotlib figure.
 
-        It shows the equilibrium; default: the load of every ball.
+        It shows the equilibrium; default: the load of every rolling element.
 
         Returns
         -------
@@ -269,14 +269,14 @@ class QuasiStatic(BearingStatics, StaticAnswer):
         Returns
         -------
         xarray.Dataset
-            Dimension contact, with ball, ring and azimuth; numbers of the bearing have dimension bearing.
+            Dimension contact, with element, ring and azimuth; numbers of the bearing have dimension bearing.
         """
         data, labels = declared_numbers({self.case: self}, "bearing")
         for name, unit in CONTACT_UNITS.items():
             values = np.array([getattr(contact, name) for contact in self.contacts], dtype=float)
             data[name] = ("contact", values, {"units": unit})
         labels |= {
-            "ball": ("contact", [contact.ball for contact in self.contacts]),
+            "element": ("contact", [contact.element for contact in self.contacts]),
             "ring": ("contact", [contact.ring for contact in self.contacts]),
         }
         return dataset(data, labels, {"case": self.case, "title": self.title})
@@ -344,7 +344,7 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
     return {
         "title": model.title,
         "verdict": rated_verdict(rating, 1e-9 * pressure, films, 1e3 * tilt),
-        "loaded_balls": loaded_balls(load[:, RINGS.index("inner")]),
+        "loaded_elements": loaded_elements(load[:, RINGS.index("inner")]),
         "max_load_N": largest,
         "max_load_ring": ring,
         "max_pressure_GPa": 1e-9 * pressure,

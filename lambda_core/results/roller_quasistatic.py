@@ -176,7 +176,7 @@ def roller_statics(
         told = list(dict.fromkeys([*told, *operating_warnings(moving, on_shaft=on_shaft)]))
     return {
         "title": model.title,
-        "loaded_balls": int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
+        "loaded_elements": int(np.sum(state.inner.sum(axis=1) > CARRYING * carried.max())),
         "max_load_N": max(_largest(one) for one in solved.states),
         "max_load_ring": "inner" if inner > outer else "outer",
         "max_pressure_GPa": pressure,
@@ -231,7 +231,7 @@ def _contacts(bearing: RollerBearing, solved: SolvedRollers) -> list[Contact]:
     leans = {"inner": angles.inner, "outer": angles.outer}
     return [
         Contact(
-            ball=j + 1,
+            element=j + 1,
             ring=ring,
             azimuth_deg=math.degrees(float(azimuth)) % 360.0,
             load_N=float(loads[ring][j].sum()),
@@ -406,7 +406,7 @@ def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoa
     most = np.maximum(state.inner.max(axis=1), state.outer.max(axis=1)) / width
     return [
         RollerLoad(
-            roller=j,
+            roller=j + 1,
             azimuth_deg=math.degrees(float(state.azimuths[j])),
             inner_N=float(inner[j]),
             outer_N=float(outer[j]),

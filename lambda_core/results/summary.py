@@ -15,7 +15,7 @@ from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import BearingNeededError, UsageError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.elements.ball.kinds import kind_of
-from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
+from lambda_core.formulas.loading import CARRYING, Ring, carries, largest_contact, loaded_elements
 from lambda_core.results.answer import dataset, declared_numbers
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bearing_summary import BearingSummary, Contact, StartState
@@ -430,7 +430,7 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
     load = state["load"]
     return [
         Contact(
-            ball=ball + 1,
+            element=ball + 1,
             ring=name,
             azimuth_deg=math.degrees(float(state["ball_azimuth"][ball])) % 360.0,
             load_N=float(load[ball, ring]),
@@ -476,7 +476,7 @@ def _equilibrium(result: Result) -> StartState:
     first = _sample(result, 0)
     largest, ring = largest_contact(first["load"])
     return StartState(
-        loaded_balls=loaded_balls(first["load"][:, RINGS.index("inner")]),
+        loaded_elements=loaded_elements(first["load"][:, RINGS.index("inner")]),
         max_load_N=largest,
         max_load_ring=ring,
         max_pressure_GPa=1e-9 * float(first["max_pressure"].max()),

@@ -28,7 +28,7 @@ _REST = ("rib", "cage", "drag", "bending")
 PLACED = frozenset({
     "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
     "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm", "inner_ring_displacement_um",
-    "inner_ring_tilt_mrad", "loaded_balls", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
+    "inner_ring_tilt_mrad", "loaded_elements", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
     "second_cage_speed_ratio", "support_power_W",
     # of a bearing in the equilibrium of a machine
     "axial_load_N", "basic_life_h", "contact_angle_deg", "displacement_um", "force_N",
@@ -192,7 +192,7 @@ def statics_lines(found: QuasiStatic, width: int | None, units: UnitSystem, *, i
         *(text for name, text in loads.items() if not is_section or name != "force_N"),
         line(
             "equilibrium",
-            f"{found.loaded_balls} {element}s loaded",
+            f"{found.loaded_elements} {element}s loaded",
             f"Q_max {shown(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
             f"p_max {shown(found, 'max_pressure_GPa', units)}",
         ),
@@ -222,7 +222,7 @@ def _contact_rows(contacts: Sequence[Contact], units: UnitSystem) -> list[str]:
     load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))
     head = f"{'ball':>6}{'azimuth':>10}{'ring':>8}{load:>10}{'angle deg':>11}{film:>10}{'C pF':>9}"
     return [head] + [
-        f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}"
+        f"{contact.element:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}"
         f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
         f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
         for contact in contacts

@@ -92,7 +92,7 @@ class BegunBearing(Begun):
         """Return a sentence about the equilibrium."""
         found = self.point.answer
         return (
-            f"equilibrium: {found.loaded_balls} {self.point.model.elements} loaded, "
+            f"equilibrium: {found.loaded_elements} {self.point.model.elements} loaded, "
             f"Q_max {found.max_load_N / 1e3:.2f} kN ({found.max_load_ring} ring), "
             f"p_max {found.max_pressure_GPa:.2f} GPa"
         )

@@ -273,7 +273,7 @@ def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, war
 def test_quasistatic_prints_the_same_numbers_as_its_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["quasistatic", CASE, "--json", "--quiet"]) == 0
     data = json.loads(capsys.readouterr().out)
-    assert data["loaded_balls"] == 9
+    assert data["loaded_elements"] == 9
     # 700 N over nine balls at about 13.66 degrees: 700/(9 sin 13.66) = 329 N
     loads = [contact["load_N"] for contact in data["contacts"] if contact["ring"] == "inner"]
     assert np.mean(loads) == pytest.approx(329.3, rel=0.01)

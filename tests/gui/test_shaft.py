@@ -51,7 +51,7 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingEquilibrium:
     return api.BearingEquilibrium(
         name=name, title="6208", position_mm=position, force_N=[213.0, 416.0, 286.0], moment_Nm=[0.0, 0.0],
         radial_load_N=505.0, axial_load_N=-213.0, displacement_um=[1.0, 2.0, 3.0], misalignment_mrad=[0.1, 0.2],
-        outer_ring_um=[0.0, 0.0, 0.0], clearance_um=13.0, loaded_balls=9, max_load_N=236.0, max_load_ring="inner",
+        outer_ring_um=[0.0, 0.0, 0.0], clearance_um=13.0, loaded_elements=9, max_load_N=236.0, max_load_ring="inner",
         max_pressure_GPa=1.1, contact_angle_deg=[10.0, 13.0], friction_breakdown_Nmm={}, orbit_speed_ratio=0.4,
         rating=Rating(equivalent_load_N=600.0, basic_life_h=4e5, reference_life_h=2e6, viscosity_ratio=2.0,
                       static_safety=30.0), shoulders=[], film_parameter=[2.0, 3.0], friction_torque_Nmm=61.0,

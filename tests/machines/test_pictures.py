@@ -31,7 +31,7 @@ def test_one_bearing_is_drawn_with_its_load(tmp_path: Path, capsys: pytest.Captu
     asked = ["quasistatic", "6208-axial-1300", "--set", "loads.radial=500 N", "--draw", str(tmp_path), "--band", "none"]
     assert main([*asked, "-q"]) == 0
     assert {path.name.removeprefix("6208-axial-1300-") for path in tmp_path.iterdir()} == {
-        f"{view}.{kind}" for view in ("bearing", "ball-loads") for kind in ("svg", "png")
+        f"{view}.{kind}" for view in ("bearing", "element-loads") for kind in ("svg", "png")
     }
     capsys.readouterr()
     found = api.quasistatic("6208-axial-1300", ["loads.radial=500 N"])

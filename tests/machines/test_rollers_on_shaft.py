@@ -145,7 +145,7 @@ def test_one_bearing_on_a_short_shaft_is_the_bearing_alone(elastic: dict[str, An
             "life": life,
         }
     )
-    assert found.loaded_balls == alone.loaded_balls
+    assert found.loaded_elements == alone.loaded_elements
     pairs = [
         (found.max_load_N, alone.max_load_N),
         (found.max_pressure_GPa, alone.max_pressure_GPa),

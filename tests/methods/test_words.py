@@ -8,15 +8,15 @@ from __future__ import annotations
 import pytest
 
 from lambda_core import api
-from lambda_core.formulas.loading import largest_contact, loaded_balls
+from lambda_core.formulas.loading import largest_contact, loaded_elements
 from lambda_core.results.quasistatic import QuasiStatic
 
 CASE = "6319-cp10-1500"
 
 
-def test_loaded_balls_are_those_that_the_inner_ring_loads() -> None:
-    assert loaded_balls([100.0, 1.1, 0.9, 0.0]) == 2  # above 1 % of the largest
-    assert loaded_balls([0.0, 0.0]) == 0
+def test_loaded_elements_are_those_that_the_inner_ring_loads() -> None:
+    assert loaded_elements([100.0, 1.1, 0.9, 0.0]) == 2  # above 1 % of the largest
+    assert loaded_elements([0.0, 0.0]) == 0
 
 
 def test_the_largest_contact_load_says_at_which_ring() -> None:
@@ -33,7 +33,7 @@ def test_quasistatic_and_compare_count_alike(found: QuasiStatic) -> None:
     compared = api.compare(CASE, methods=["quasi-static"])
     (method,) = (method for method in compared.methods if method.name == "quasi-static")
     numbers = {row.name: row.value for row in method.numbers if row.group == "load"}
-    assert numbers["loaded balls"] == found.loaded_balls
+    assert numbers["loaded balls"] == found.loaded_elements
     assert numbers[f"largest contact load, {found.max_load_ring}"] == pytest.approx(found.max_load_N)
     # Centrifugal force adds to the load at the outer ring.
     assert found.max_load_ring == "outer"

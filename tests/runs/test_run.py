@@ -191,9 +191,9 @@ def test_the_summary_is_valid_json_with_the_names_of_the_interface(provenance: M
     assert set(promised.split()) <= set(data) | set(data["bearings"][ALONE])
     contacts = data["bearings"][ALONE]["contacts"]
     assert set(contacts[0]) == {
-        "ball", "ring", "azimuth_deg", "load_N", "contact_angle_deg", "film_um", "capacitance_pF",
+        "element", "ring", "azimuth_deg", "load_N", "contact_angle_deg", "film_um", "capacitance_pF",
     }  # fmt: skip
-    assert [(c["ball"], c["ring"]) for c in contacts[:3]] == [(1, "inner"), (1, "outer"), (2, "inner")]
+    assert [(c["element"], c["ring"]) for c in contacts[:3]] == [(1, "inner"), (1, "outer"), (2, "inner")]
     assert all(0.0 <= c["azimuth_deg"] < 360.0 for c in contacts)
     assert contacts[0]["film_um"] is None  # unloaded
     last = result.sample(-1, ("load", "film_central", "capacitance"))

@@ -30,6 +30,6 @@ def test_a_case_a_model_an_estimate_and_a_run_give_the_same_numbers(tmp_path: Pa
     assert api.estimate(CASE).equilibrium.to_dict() == answer.to_dict()
     summary = api.run(CASE, out=tmp_path / "rollers.h5").summary()
     assert summary.rating == answer.rating
-    assert summary.equilibrium.loaded_balls == answer.loaded_balls
+    assert summary.equilibrium.loaded_elements == answer.loaded_elements
     assert summary.equilibrium.max_load_N == pytest.approx(answer.max_load_N, rel=1e-3)
     assert summary.equilibrium.max_pressure_GPa == pytest.approx(answer.max_pressure_GPa, rel=1e-3)

@@ -77,7 +77,7 @@ def test_a_soft_housing_spreads_the_load() -> None:
     """
     rigid, firm, soft_one = (api.quasistatic(CASE, o) for o in ((), soft("1000 N/um"), soft("100 N/um")))
     assert rigid.max_load_N > 1.05 * firm.max_load_N > 1.05**2 * soft_one.max_load_N
-    assert rigid.loaded_balls <= firm.loaded_balls <= soft_one.loaded_balls
+    assert rigid.loaded_elements <= firm.loaded_elements <= soft_one.loaded_elements
     displacements = [each.inner_ring_displacement_um[2] for each in (rigid, firm, soft_one)]
     assert displacements[0] > displacements[1] > displacements[2]
     (bent,) = soft_one.ring_shapes

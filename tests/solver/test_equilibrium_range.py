@@ -108,7 +108,7 @@ def test_balls_that_stall_the_search_are_started_anew(point: tuple[Any, ...]) ->
 
 
 @pytest.mark.parametrize("tilt", ["locked", "free"])
-def test_unloaded_balls_that_creep_are_held_by_friction(tilt: str) -> None:
+def test_unloaded_elements_that_creep_are_held_by_friction(tilt: str) -> None:
     """Hold creeping unloaded balls by friction.
 
     Without friction they slide nanometres an iteration along their grooves at 1 1/min, for ever.

@@ -64,7 +64,7 @@ def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
 
 
 @pytest.mark.slow
-def test_what_an_estimate_without_the_unloaded_balls_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_an_estimate_without_the_unloaded_elements_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Add the rolling torque of unloaded balls.
 
     A first estimate had 248, 519 and 733 N mm of rolling: 30 um of clearance, loaded balls only.

@@ -183,11 +183,11 @@ def test_energies_close_as_the_summary_says(radial_run: Result) -> None:
 
 
 def test_speeds_over_kinematics_are_near_one_where_balls_are_loaded(radial_run: Result, combined_run: Result) -> None:
-    orbit, spin, slip = data(combined_run, "ball-speeds").panels
+    orbit, spin, slip = data(combined_run, "element-speeds").panels
     for panel in (orbit, spin):
         np.testing.assert_allclose(panel.series[0].y[np.isfinite(panel.series[0].y)], 1.0, atol=0.01)
     assert np.nanmax(np.abs(series(slip, "outer ring").y)) < 0.1
-    loaded = data(radial_run, "ball-speeds").panels[0].series[0]
+    loaded = data(radial_run, "element-speeds").panels[0].series[0]
     bottom = (loaded.x > 240.0) & (loaded.x < 300.0)
     np.testing.assert_allclose(loaded.y[bottom], 1.0, atol=0.01)
 

@@ -375,7 +375,7 @@ def contacts(summary: Any, units: UnitSystem = SI, element: str = "ball") -> Tab
     most = max((c.load_N for c in summary.contacts), default=0.0)
     rows = tuple(
         (
-            str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{units.value(c.load_N, 'N'):.1f}",
+            str(c.element), c.ring, f"{c.azimuth_deg:.1f}", f"{units.value(c.load_N, 'N'):.1f}",
             number(c.contact_angle_deg, 2), rounded(None if c.film_um is None else units.value(c.film_um, "um")),
             rounded(c.capacitance_pF),
         )

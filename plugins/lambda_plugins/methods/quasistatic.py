@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.formulas.loading import loaded_balls
+from lambda_core.formulas.loading import loaded_elements
 from lambda_core.views.method import (
     EquilibriumState,
     Method,
@@ -41,7 +41,7 @@ def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]
 def _load_rows(state: EquilibriumState) -> list[MethodRow]:
     most = max(state.contacts, key=lambda contact: contact.load_inner)
     outer = max(contact.load_outer for contact in state.contacts)
-    loaded = loaded_balls([contact.load_inner for contact in state.contacts])
+    loaded = loaded_elements([contact.load_inner for contact in state.contacts])
     x, y, z = (value * 1e6 for value in state.displacement[:3])
     return [
         MethodRow("load", "largest contact load, inner", most.load_inner, "N"),

@@ -45,7 +45,7 @@ def friction_breakdown(run: RunData, options: Options) -> ViewData:
     )
     notes = (
         f"dissipated power over |Omega_i - Omega_o|, mean over {averaging(run).words}",
-        "cage: pockets and lands (balls against each other without cage); drag: fluid on the balls",
+        "cage: pockets and lands (neighbours against each other without cage); drag: fluid on the elements",
     )
     return ViewData("friction-breakdown", "Friction torque by mechanism", source(run), (panel,), 1, notes)
 

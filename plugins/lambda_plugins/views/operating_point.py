@@ -92,14 +92,14 @@ def _drawing(model: Any, report: Any) -> Panel:
     )  # fmt: skip
 
 
-def ball_loads(machine: MachineData, options: Options) -> ViewData:
+def element_loads(machine: MachineData, options: Options) -> ViewData:
     """Return the ball loads over azimuth.
 
     It shows both rings, with a panel for each bearing.
     """
     found = _solved(machine)
     panels = tuple(_loads(name, one.contacts) for name, one in _named(found).items())
-    return ViewData("ball-loads", "Load of every ball", _titles(found), panels, 1)
+    return ViewData("element-loads", "Load of every rolling element", _titles(found), panels, 1)
 
 
 def _solved(machine: MachineData) -> Any:
@@ -204,6 +204,13 @@ VIEWS = (
         view_api=1,
     ),
     View("bearing", "Bearing under its load without time", "machine", bearing, offered=_is_alone, view_api=1),
-    View("ball-loads", "Load of every ball without time", "machine", ball_loads, offered=_is_alone, view_api=1),
+    View(
+        "element-loads",
+        "Load of every rolling element without time",
+        "machine",
+        element_loads,
+        offered=_is_alone,
+        view_api=1,
+    ),
     View("whirl", "Natural frequencies of a machine over speed", "machine", campbell, offered=_is_on_shaft, view_api=1),
 )
