@@ -80,12 +80,12 @@ class Kernels:
         """
         law = model.laws[element][role]
         known = self._prepared.get((element, role), [])
-        for kept in known:
-            if kept[0] is law and kept[1] == context:
-                return kept[2]
-        made = prepare(law, context)
-        self._prepared[element, role] = [(law, context, made), *known[: _KEPT - 1]]
-        return made
+        found = next((kept for kept in known if kept[0] is law and kept[1] == context), None)
+        if found is None:
+            found = law, context, prepare(law, context)
+        others = [kept for kept in known if kept is not found]
+        self._prepared[element, role] = [found, *others[: _KEPT - 1]]  # the last one used comes first
+        return found[2]
 
     def keys(self) -> dict[str, str]:
         """Return "element/role/model" -> hash of everything the kernel reaches."""
