@@ -86,7 +86,8 @@ def rolling_ratio(
     carried = weight > 0.0
     if not carried.any():
         return math.nan
-    ratio = ((at_inner - approach * turn_outer) / (at_inner + at_outer))[carried]
+    # a ball that flies between the raceways may lean so that there is no such speed
+    ratio = (at_inner - approach * turn_outer)[carried] / (at_inner + at_outer)[carried]
     return float(weight[carried] @ ratio / weight[carried].sum())
 
 

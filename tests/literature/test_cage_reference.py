@@ -131,3 +131,15 @@ def test_with_equal_angles_the_reference_is_harris() -> None:
 def test_without_load_there_is_no_reference() -> None:
     nothing = np.zeros((1, 2))
     assert math.isnan(rolling_ratio(nothing, nothing, np.array([0.07]), np.zeros((1, 3)), np.zeros(1), BALL))
+
+
+def test_a_ball_between_the_raceways_takes_no_part() -> None:
+    """Average without a ball that touches nothing.
+
+    Its contact angles may be those of opposite points, between which there is no speed of rolling.
+    """
+    load, angle = np.array([[100.0, 100.0], [0.0, 0.0]]), np.array([[0.3, 0.3], [-math.pi, 0.0]])
+    radius, spin = np.full(2, 0.5 * PITCH), np.array([[-60.0, 0.0, 0.0], [-400.0, 0.0, 0.0]])
+    with np.errstate(all="raise"):
+        both = rolling_ratio(load, angle, radius, spin, np.zeros(2), BALL)
+    assert both == rolling_ratio(load[:1], angle[:1], radius[:1], spin[:1], np.zeros(1), BALL)
