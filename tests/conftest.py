@@ -106,13 +106,14 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
     """Point cache and user data at test folders.
 
     Compiled code is kept in pytest's own cache: it is named by its content, and compiling anew in every session and in
-    every worker would take longer than the tests.
+    every worker would take longer than the tests. Without that cache it is kept where the environment says.
     """
     root = tmp_path_factory.mktemp("lambda-bearing")
     cache = getattr(request.config, "cache", None)
     folder = root.joinpath if cache is None else cache.mkdir
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("LAMBDA_BEARING_CACHE", str(folder("lambda-bearing")))
+        named = os.environ.get("LAMBDA_BEARING_CACHE") if cache is None else None
+        patch.setenv("LAMBDA_BEARING_CACHE", named or str(folder("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
         patch.setenv("MPLCONFIGDIR", str(folder("matplotlib")))  # the list of this machine's fonts
         yield root
