@@ -6,7 +6,7 @@ radial and axial forces alone; moments and what couples them to forces are added
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,10 @@ from lambda_core.formulas.elastic.beam import NODE, NODES
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.model.machine_model import GROUND, SHAFT, MachineModel
 from lambda_core.solver.drivers.compiled_laws import Announce
-from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
+from lambda_core.solver.drivers.machine_statics import solve_machine
+
+if TYPE_CHECKING:
+    from lambda_core.solver.drivers.machine_statics import MachineState
 
 # Ours: x, y, z, tilt_y, tilt_z; theirs: x, y, z, alpha, beta, theta about their axes.
 _THEIRS = (2, 0, 1, 3, 4)

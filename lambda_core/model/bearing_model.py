@@ -344,6 +344,11 @@ class BearingModel:
         """
         return {"": self}
 
+    @property
+    def surroundings(self) -> tuple[str, ...]:
+        """Nothing: no other text decides its numbers."""
+        return ()
+
     def with_each(self, change: Callable[[BearingModel], BearingModel]) -> BearingModel:
         """Return the model changed.
 

@@ -285,6 +285,11 @@ class MachineModel:
         """Models of the bearings by name, from left to right."""
         return {bearing.name: bearing.model for bearing in self.bearings}
 
+    @property
+    def surroundings(self) -> tuple[str, ...]:
+        """Its case, which decides numbers besides the bearings."""
+        return (self.case_toml,)
+
     def with_each(self, change: Callable[[BearingModel], BearingModel]) -> MachineModel:
         """Return the machine with the model of each bearing changed."""
         return replace(self, bearings=tuple(replace(one, model=change(one.model)) for one in self.bearings))

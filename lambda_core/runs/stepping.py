@@ -15,17 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.runs.record_times import next_multiple
 from lambda_core.solver.drivers.coupling import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND, Coupling, coupled_engine
-from lambda_core.solver.drivers.dynamics import BearingEngine
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.solver.drivers.compiled_laws import Announce
-    from lambda_core.solver.drivers.machine_motion import MachineEngine
 
 # What push gives, and the direction in which the ring has to be free.
 _PUSHES = {
@@ -70,21 +67,6 @@ class Step:
         if name not in self.channels:
             raise UsageError(unknown_name("channel", name, self.channels))
         return self.channels[name]
-
-
-def _seen(engine: BearingEngine | MachineEngine) -> tuple[Step, float]:
-    """Return the state now and its largest contact pressure [Pa]."""
-    if isinstance(engine, BearingEngine):
-        channels = engine.now()
-        reactions, bearings = dict(zip(BODIES, engine.reactions(), strict=True)), {}
-        pressures = [channels]
-    else:
-        seen, names = engine.now(), [one.name for one in engine.bearings]
-        pairs = zip(seen.machine["reaction_force"], seen.machine["reaction_moment"], strict=True)
-        channels, reactions = seen.machine, dict(zip(names, map(np.concatenate, pairs), strict=True))
-        bearings, pressures = dict(zip(names, seen.bearings, strict=True)), seen.bearings
-    pressure = max(float(one["max_pressure"].max()) for one in pressures)
-    return Step(engine.time, channels, reactions, math.nan, bearings), pressure
 
 
 class Stepping(Iterator[Step]):
@@ -250,7 +232,7 @@ class Stepping(Iterator[Step]):
         before = engine.state(samples=False)
         try:
             self._advance(until, exactly)
-            step, _ = _seen(engine)
+            seen = engine.seen()
         except SolverError:
             engine.forget_samples()
             engine.restore(before)
@@ -259,7 +241,7 @@ class Stepping(Iterator[Step]):
         loss, turned = engine.spent()
         torque = 1e3 * (loss - self._before[0]) / (turned - self._before[1]) if turned > self._before[1] else math.nan
         self._before = loss, turned
-        return replace(step, friction_torque_Nmm=torque)
+        return Step(engine.time, seen.channels, seen.reactions, torque, seen.bearings)
 
     def _advance(self, until: float, exactly: bool) -> None:
         """Integrate to the end of a step.
@@ -277,7 +259,7 @@ class Stepping(Iterator[Step]):
         if not advance.ok:
             raise SolverError(advance.message)
         if engine.time < until:
-            pressure = 1e-9 * _seen(engine)[1]
+            pressure = 1e-9 * engine.seen().pressure
             raise SolverError(
                 f"at t = {engine.time:.9g} s, on the way to {until:.9g} s, {engine.iterations - before} iterations are "
                 f"spent (contact pressure {pressure:.3g} GPa): forces or motions that no bearing takes; are loads in "

@@ -144,13 +144,10 @@ def point_hash(model: BearingModel | MachineModel) -> str:
 
     It covers all that decides the point's numbers.
     """
-    from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.resolve import case_hash
 
-    if not isinstance(model, MachineModel):
-        return case_hash(model)
-    parts = [model.case_toml, *(case_hash(bearing.model) for bearing in model.bearings)]
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    parts = [*model.surroundings, *map(case_hash, model.bearing_models.values())]
+    return parts[0] if len(parts) == 1 else hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 @lru_cache(maxsize=1)

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import CAGE
+from lambda_core.domain.elements import BODIES, CAGE
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.bearing_model import BearingModel
-from lambda_core.model.laws.state_channels import result_channels
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import Memory, make_memory
@@ -37,6 +36,7 @@ from lambda_core.solver.drivers.readings import (
     MachineSamples,
     ReadBearing,
     Readings,
+    Seen,
     Sums,
 )
 from lambda_core.solver.drivers.row_cages import start_cages
@@ -383,8 +383,6 @@ class BearingEngine(MotionEngine):
 
     Attributes
     ----------
-    channels : tuple of Channel
-        What every sample carries.
     begun : Equilibrium
         That it started from.
 
@@ -404,14 +402,8 @@ class BearingEngine(MotionEngine):
         capacity: int = CAPACITY,
     ) -> None:
         self.model = model
-        self.channels = result_channels(model)
         self.begun = equilibrium or solve(model, announce=announce, strict=False)
         super().__init__(bearing_start(self.begun, model, given), announce, capacity=capacity)
-
-    @property
-    def kernel_keys(self) -> dict[str, str]:
-        """Hash of everything each kernel reaches."""
-        return self.context.kernels.keys()
 
     def samples(self) -> Channels:
         """Return and clear the buffered samples."""
@@ -435,6 +427,10 @@ class BearingEngine(MotionEngine):
         """
         wrenches: FloatArray = self.context.bundle.body_wrenches[: CAGE + 1].view(np.float64).reshape(-1, 6)
         return wrenches.copy()
+
+    def seen(self) -> Seen:
+        """Return channels and reactions at `time`."""
+        return Seen(self.now(), dict(zip(BODIES, self.reactions(), strict=True)), {})
 
     def equilibrium(self) -> Mapping[str, object]:
         """Return the quasi-static solution the run started from."""

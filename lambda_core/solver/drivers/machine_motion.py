@@ -25,7 +25,7 @@ from lambda_core.solver.drivers.external_inputs import machine_inputs, no_inputs
 from lambda_core.solver.drivers.lumps import LumpedShaft, lump, unbalance_of_lumps
 from lambda_core.solver.drivers.machine_assembly import machine_assembly, member_numbers, with_free_bodies
 from lambda_core.solver.drivers.machine_statics import MachineState, solve_machine
-from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Sums
+from lambda_core.solver.drivers.readings import Channels, MachineReadings, MachineSamples, ReadBearing, Seen, Sums
 from lambda_core.solver.drivers.row_cages import cages_in, own_bodies, put_cages
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble, context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
@@ -184,6 +184,13 @@ class MachineEngine(MotionEngine):
             {name: values[0] for name, values in channels.items()} for channels in (found.machine, *found.bearings)
         )
         return MachineSamples(machine, bearings)
+
+    def seen(self) -> Seen:
+        """Return channels and reactions at `time`."""
+        found, names = self.now(), [one.name for one in self.bearings]
+        pairs = zip(found.machine["reaction_force"], found.machine["reaction_moment"], strict=True)
+        reactions = dict(zip(names, map(np.concatenate, pairs), strict=True))
+        return Seen(found.machine, reactions, dict(zip(names, found.bearings, strict=True)))
 
     @property
     def model(self) -> MachineModel:

@@ -63,6 +63,32 @@ class MachineSamples:
     bearings: list[Channels]
 
 
+@dataclass(frozen=True)
+class Seen:
+    """A motion at one moment.
+
+    Attributes
+    ----------
+    channels : mapping of str to float64 array
+        Of a bearing that is alone, or of a machine.
+    reactions : mapping of str to float64 array
+        What a bearing puts on each of its bodies, or what each bearing of a machine puts on the shaft: force [N] and
+        moment [N m], shape (6,).
+    bearings : mapping of str to mapping
+        Channels of each bearing of a machine.
+    """
+
+    channels: Channels
+    reactions: Mapping[str, FloatArray]
+    bearings: Mapping[str, Channels]
+
+    @property
+    def pressure(self) -> float:
+        """Largest contact pressure [Pa]."""
+        each = list(self.bearings.values()) or [self.channels]
+        return max(float(one["max_pressure"].max()) for one in each)
+
+
 class Readings(Protocol):
     """Readings of a motion's states."""
 
