@@ -8,15 +8,28 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.domain.channels import Channel
 from lambda_core.domain.elements import ALONE
-from lambda_core.model.laws.state_channels import result_channels
+from lambda_core.model.laws.state_channels import element_channels, result_channels
 from lambda_core.results.samples import TIME, RunChannels, Samples
-from lambda_core.runs.machine_channels import MACHINE_CHANNELS
 
 if TYPE_CHECKING:
-    from lambda_core.domain.channels import Channel
     from lambda_core.solver.drivers.dynamics import MotionEngine
     from lambda_core.solver.drivers.engine import Advance
+
+# Of shaft and bodies; bearings have their own.
+MACHINE_CHANNELS = (
+    Channel("shaft_position", ("lump", "axis"), "m", "displacement of the shaft at every lump"),
+    Channel("shaft_tilt", ("lump", "tilt"), "rad", "tilt of the shaft at every lump about y and z"),
+    Channel("shaft_twist", ("lump",), "rad", "turn of the shaft at every lump beyond that of the coupling"),
+    Channel("body_position", ("body", "axis"), "m", "displacement of every other body"),
+    Channel("body_tilt", ("body", "axis"), "rad", "rotation of every other body about x, y and z"),
+    Channel("marker_position", ("marker", "axis"), "m", "displacement of every named place"),
+    Channel("reaction_force", ("bearing", "axis"), "N", "force of every bearing on the shaft"),
+    Channel("reaction_moment", ("bearing", "axis"), "N m", "moment of every bearing on the shaft about its centre"),
+    Channel("power_loss", (), "W", "power that all bearings dissipate"),
+    *element_channels("connection", "connection by a law"),
+)
 
 
 class RunEngine(Protocol):

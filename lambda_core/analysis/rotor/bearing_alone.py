@@ -6,15 +6,23 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from lambda_core.case.case_io import refuse_bearing
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.elements.roller.roller_friction import OilState
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
+from lambda_core.model.laws.roller_dielectric import dielectric_of_model
+from lambda_core.model.laws.roller_laws import friction_of_model
+from lambda_core.model.roller_case import RollerModel, friction_parameters
 
 if TYPE_CHECKING:
+    from lambda_core.laws.context import Oil
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.machine_statics import MachineState
+    from lambda_core.solver.drivers.roller_reaction import RollerReaction
 
 
 def bearing_number(model: BearingModel | MachineModel, name: str | None) -> int:
@@ -106,6 +114,34 @@ def alone_under_load(machine: MachineModel, state: MachineState, number: int) ->
         model, name=f"{machine.name}-{mounted.name}", title=f"{model.title}, {mounted.name} of {machine.name}",
         inner_ring=inner, outer_ring=outer, links={}, assumptions=(*model.assumptions, note),
     )  # fmt: skip
+
+
+def taken_out(ring: RollerReaction) -> RollerModel:
+    """Return a roller bearing of a machine alone.
+
+    It has the load that it carries at the last pose of its rings.
+
+    Its tilts are those of the pose; so is its place in directions without a load that holds it.
+    """
+    model, bearing, motion, state = ring.model, ring.rollers, ring.motion, ring.state
+    oil = _oil_state(ring.oil)
+    given = dataclasses.replace(
+        friction_parameters(bearing, model.roughness, model.lubrication, model.oil_level), **friction_of_model(model)
+    )
+    loads = np.array([*state.loads[:3], 0.0, 0.0])  # tilts are held
+    along, across = bearing.contact_angle == 0.0 or loads[0] <= 0.0, state.carried[0] == 0.0
+    return RollerModel(
+        name=model.name, title=model.title, bearing=bearing, loads=loads,
+        held=(bool(along), across, across, True, True), displacement=state.ring,
+        speeds=(motion.inner, motion.outer), oil=oil, friction=given, lubricant=ring.oil.name,
+        base_type=ring.oil.base_type, lubrication=model.lubrication, temperature=ring.oil.temperature,
+        slices=state.inner.shape[1], contamination=model.contamination, assumptions=model.assumptions,
+        dielectric=dielectric_of_model(model, ring.frame, ring.oil),
+    )  # fmt: skip
+
+
+def _oil_state(oil: Oil) -> OilState:
+    return OilState(oil.viscosity, oil.density, oil.alpha_p, oil.beta, oil.thermal_conductivity)
 
 
 def at_speed(model: BearingModel, speed: float) -> BearingModel:

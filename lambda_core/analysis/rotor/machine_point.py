@@ -13,10 +13,9 @@ import numpy as np
 
 from lambda_core.analysis.electric.current_numbers import PHASES, CurrentNumbers, static_numbers
 from lambda_core.analysis.rating.engineering import rating_of
-from lambda_core.analysis.rotor.bearing_alone import alone_under_load
+from lambda_core.analysis.rotor.bearing_alone import alone_under_load, taken_out
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.analysis.rotor.machine_modes import MachineModes, ModeAtSpeed, modes_at_speed, modes_of
-from lambda_core.analysis.rotor.rollers_on_shaft import taken_out
 from lambda_core.analysis.static_point import BearingPoint, LoadedBearing, StaticPoint
 from lambda_core.discovery.api import registry
 from lambda_core.results.roller_quasistatic import roller_statics

@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, InlineGeometry
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.domain.units import show
-from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given
+from lambda_core.elements.ball.ball_kind import Angles, BallKind, Given, Shoulders
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.kinds import written_kind
 from lambda_core.formulas.tolerances import Limits
 from lambda_core.model.geometry.geometry_checks import check_geometry, mm
 from lambda_core.model.geometry.resolve_clearance import class_of_kind, clearance_as_bought, picked
-from lambda_core.model.geometry.resolve_shoulders import shoulder
 from lambda_core.model.ledger import Ledger
 
 # ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
@@ -23,6 +22,9 @@ CONFORMITY_INNER, CONFORMITY_OUTER = 0.515, 0.525
 LEAST_LENGTH, MOST_LENGTH = 1e-6, 100.0  # [m]
 SIZES = ("bore_diameter", "outside_diameter", "width")
 INNER = ("ball_count", "ball_diameter")
+# Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
+# which missing inner geometry is derived.
+_SHOULDER_SPREAD = 1.21
 
 
 @dataclass
@@ -175,9 +177,9 @@ def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
     """
     size = geometry.ball_diameter, geometry.pitch_diameter
     kind = geometry.kind
-    inner = shoulder(picker, "inner", *size, kind.shoulders)
+    inner = _shoulder(picker, "inner", *size, kind.shoulders)
     if kind.outer_shoulder is None:
-        outer = shoulder(picker, "outer", *size, kind.shoulders)
+        outer = _shoulder(picker, "outer", *size, kind.shoulders)
     elif (outer := picker.take("shoulder_diameter_outer") or 0.0) == 0.0:
         outer = kind.outer_shoulder(geometry)
         picker.ledger.record("bearing.shoulder_diameter_outer", outer, "length", "the sphere at the faces", "derived")
@@ -317,3 +319,26 @@ def is_of_grooves(text: str) -> bool:
     It is that of a value or an assumption; shoulders count; rollers have none of both.
     """
     return text.startswith(("bearing.groove_", "bearing.shoulder_", "shoulder diameters:")) or " groove radius " in text
+
+
+def _shoulder(picker: Picker, ring: str, ball: float, pitch: float, known: Shoulders | None) -> float:
+    """Return the diameter of a ring's shoulder.
+
+    An angular contact bearing has a high shoulder that carries the load; its diameter counts.
+
+    Where it is not known it follows from the mean height of its kind; None: deep groove.
+    """
+    name = f"shoulder_diameter_{ring}"
+    diameter = picker.take(name)
+    sign = -1.0 if ring == "inner" else 1.0
+    if diameter is None and known is not None:
+        height = known.heights[ring]
+        diameter = pitch + sign * (1.0 - 2.0 * height) * ball
+        text = f"{known.what} {height:g} D_w over the raceway"
+        picker.ledger.record(f"bearing.{name}", diameter, "length", text, "assumed")
+        picker.ledger.assume(f"{ring} ring: {text}, {known.whose}")
+    elif diameter is None:
+        diameter = pitch + sign * 0.5 * _SHOULDER_SPREAD * ball
+        picker.ledger.record(f"bearing.{name}", diameter, "length", "pitch -+ 0.605 D_w", "assumed")
+        picker.ledger.assume("shoulder diameters: pitch diameter -+ 0.605 D_w, the mean of catalogue shoulders")
+    return diameter
