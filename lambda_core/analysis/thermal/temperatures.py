@@ -145,7 +145,7 @@ def ready_rollers(
     """Return the roller bearing of a case.
 
     It has its own temperatures where the case wants them computed; then also return its model with what was found.
-    None where the source is no case of one.
+    None where the source is no case of one, or a resolved model.
 
     Raises
     ------
@@ -153,14 +153,8 @@ def ready_rollers(
         With a sentence about the case, or about why there are no steady temperatures.
     """
     from lambda_core.case.case_io import load_case
-    from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.roller_case import roller_model, rollers_at_rest
 
-    if isinstance(source, BearingModel):
-        if source.rollers is None:
-            return None
-        warm = ready_model(source, overrides, announce, is_static=True)
-        return rollers_at_rest(warm), warm
     rollers = roller_model(source, overrides)  # type: ignore[arg-type]
     if rollers is None or load_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
         return None if rollers is None else (rollers, None)
