@@ -18,6 +18,7 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.lists import listed
+from lambda_core.domain.number_text import rounded
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.answer import Answer, answers
@@ -75,7 +76,7 @@ class SpeedCurve(Answer):
         bands = bands or [()] * len(self.speeds_rpm)
         head = ("1/min", "torque", *(("90 % model band",) if self.torque_Nmm_band else ()), *names, "SKF", "Lambda")
         rows = [
-            (f"{n:.4g}", units.number(self.torque_Nmm[i], unit), *bands[i],
+            (f"{n:.4g}", self._torque(i, units), *bands[i],
              *(units.number(self.parts_Nmm[k][i], unit) for k in names),
              units.number(self.skf_Nmm[i], unit), f"{self.film_parameter[i]:.2f}")
             for i, n in enumerate(self.speeds_rpm)
@@ -85,6 +86,13 @@ class SpeedCurve(Answer):
         return "\n".join(
             [self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, *self.band_notes, self.note]
         )
+
+    def _torque(self, point: int, units: UnitSystem) -> str:
+        """Write the torque, rounded to its band."""
+        if not self.torque_Nmm_band:
+            return units.number(self.torque_Nmm[point], "N mm")
+        low, high, torque = (units.value(one, "N mm") for one in (*self.torque_Nmm_band[point], self.torque_Nmm[point]))
+        return rounded(torque, 0.5 * abs(high - low))
 
 
 @answers

@@ -75,11 +75,17 @@ def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["stribeck", CASE, "--points", "2", "--band", "none", "--quiet"]) == 0
     assert "Lambda" in (text := capsys.readouterr().out)
     assert "model band" not in text
+    assert main(["stribeck", CASE, "--points", "2", "--band", "none", "--quiet", "--json"]) == 0
+    plain = json.loads(capsys.readouterr().out)
+    assert plain["torque_Nmm_band"] == plain["band_notes"] == []  # as in the answers of other commands
     assert main(["stribeck", CASE, "--speed", "10 rpm", "--speed", "1000 rpm", "--quiet", "--units", "us"]) == 0
     customary = capsys.readouterr().out
     assert "friction torque over speed [lbf in]" in customary
-    for torque in printed["torque_Nmm"]:
-        assert f" {torque / 112.98483:.3f} " in customary
+    shown_ones = [line.split()[1] for line in customary.splitlines()[3:5]]
+    for shown, torque, (low, high) in zip(shown_ones, printed["torque_Nmm"], printed["torque_Nmm_band"], strict=True):
+        # no more digits than the band leaves
+        assert float(shown) == pytest.approx(torque / 112.98483, abs=0.05 * (high - low) / 112.98483)
+        assert len(shown) <= 4
 
 
 @pytest.mark.parametrize(
