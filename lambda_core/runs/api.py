@@ -67,7 +67,6 @@ def quasistatic(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.analysis.band.model_band import bands_or_reason
     from lambda_core.analysis.rotor.bearing_alone import bearing_number
     from lambda_core.analysis.static_point import static_point
     from lambda_core.analysis.thermal.temperatures import ready_rollers
@@ -86,6 +85,8 @@ def quasistatic(
         point = static_point(model, announce)
         found = point.summary
         if band:
+            from lambda_core.analysis.band.model_band import bands_or_reason
+
             found = found.with_bands(bands_or_reason(point).bearings)
     return found if bearing is None else found.of_bearing(bearing)
 
