@@ -43,6 +43,7 @@ from lambda_core.model.bodies.resolve_materials import (
 )
 from lambda_core.model.checks.oil_table import OilLaw, oil_state
 from lambda_core.model.checks.operating_limits import speed_warning
+from lambda_core.model.geometry.roller_limits import is_possible, refuse_geometry_of_balls
 from lambda_core.model.geometry.roller_profile import profile_of
 from lambda_core.model.laws.law_context import effective_modulus
 from lambda_core.model.laws.roller_dielectric import dielectric_of_case
@@ -352,7 +353,7 @@ def roller_geometry(
     materials = materials_apart(("inner", "outer", "balls"), case, catalogue, ledger)
     inner, outer, roller = (materials[part] for part in ("inner", "outer", "balls"))
     try:
-        return RollerBearing(
+        bearing = RollerBearing(
             kind=kind,
             count=shape["count"],
             diameter=number["roller_diameter"],
@@ -382,11 +383,13 @@ def roller_geometry(
     except ValueError as error:
         ledger.problem("bearing.rollers", str(error).replace("`", ""))
         return None
+    return bearing if is_possible(bearing, ledger) else None
 
 
 def _refuse_options_of_balls(case: Case, conical: bool, ledger: Ledger) -> None:
     """Refuse options of balls and a tapered bearing's clearance."""
     bearing = case.bearing
+    refuse_geometry_of_balls(bearing.geometry, ledger)
     if bearing.contact_angle is not None:
         ledger.problem(
             "bearing.contact_angle", "is that of ball bearings; of tapered rollers write bearing.rollers.contact_angle"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -75,3 +76,24 @@ def test_rollers_count_from_one_as_contacts_do(tmp_path: Path) -> None:
     for contact in found.contacts:
         own = found.rollers.loads[contact.element - 1]
         assert contact.load_N == (own.inner_N if contact.ring == "inner" else own.outer_N)
+
+
+@pytest.mark.parametrize(
+    ("designation", "changes", "sentence"),
+    [
+        ("NU 208", ["bearing.rollers.rib_height=6 mm"], "rib_height must be below half of the roller's diameter, 5.5"),
+        ("NU 208", ["bearing.rollers.roller_length=30 mm"], "30 mm: a roller must fit into the bearing's width, 18 mm"),
+        ("NU 208", ["bearing.rollers.end_radius=0.1 mm"], "end_radius must be above 4.5 mm, where the end touches"),
+        ("32216", ["bearing.rollers.end_radius=1 mm"], "end_radius leaves no contact with the rib: the sphere end"),
+        ("32216", ["bearing.rollers.contact_height=30 mm"], "contact_height must be below the large end's diameter"),
+        ("NU 208", ["bearing.geometry.ball_count=9"], "ball_count is that of ball bearings; rollers are described in"),
+        ("NU 208", ["bearing.rollers.profile=tabulated", 'bearing.rollers.profile_points=[["0 mm", "0 um"], '
+          '["6 mm", "9 mm"]]'], "profile falls by 6.95 mm at the ends: must stay below half of the roller's"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_built_is_refused(designation: str, changes: list[str], sentence: str, tmp_path: Path) -> None:
+    if designation == "32216":
+        changes = [*changes, "loads.axial=6 kN"]
+    with pytest.raises(api.CaseError, match=re.escape(sentence)) as refused:
+        api.check(case(tmp_path, designation), changes)
+    assert len(refused.value.problems) == 1

@@ -1,0 +1,70 @@
+"""Refuse rollers, ribs and profiles that cannot be built."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from lambda_core.case.parts import InlineGeometry
+from lambda_core.domain.units import show
+from lambda_core.elements.roller.roller_bearing import RollerBearing
+from lambda_core.elements.roller.slices import SLICES
+from lambda_core.model.ledger import Ledger
+
+# What a roller bearing takes of [bearing.geometry]; the rest describes balls.
+_SHARED = ("bore_diameter", "outside_diameter", "width", "dynamic_rating", "static_rating")
+
+
+def is_possible(bearing: RollerBearing, ledger: Ledger) -> bool:
+    """Tell whether a bearing can be built.
+
+    The ledger gets what no roller bearing can have.
+    """
+    found = list(_impossible(bearing))
+    for option, sentence in found:
+        ledger.problem(f"bearing.rollers.{option}", sentence)
+    return not found
+
+
+def _impossible(bearing: RollerBearing) -> Iterator[tuple[str, str]]:
+    """Yield options and what is wrong with them."""
+    half = 0.5 * bearing.diameter
+    if bearing.length > bearing.width:
+        room = show(bearing.width, "length", 4)
+        yield (
+            "roller_length",
+            f"{show(bearing.length, 'length', 4)}: a roller must fit into the bearing's width, {room}",
+        )
+    deepest = float(bearing.drops(SLICES).max())
+    if not deepest < half:
+        yield (
+            "profile",
+            (
+                f"falls by {show(deepest, 'length', 3)} at the ends: must stay below half of the roller's diameter, "
+                f"{show(half, 'length', 3)}"
+            ),
+        )
+    if bearing.is_conical:
+        large = bearing.diameter + bearing.length * math.tan(bearing.angles.half)
+        if bearing.contact_height >= large:
+            yield "contact_height", f"must be below the large end's diameter, {show(large, 'length', 4)}"
+    elif bearing.rib_height >= half:
+        yield "rib_height", f"must be below half of the roller's diameter, {show(half, 'length', 4)}"
+        return
+    least = half - 0.5 * bearing.rib_height
+    if not bearing.is_conical and 0.0 < bearing.end_radius <= least:
+        yield "end_radius", f"must be above {show(least, 'length', 4)}, where the end touches the rib"
+        return
+    try:
+        _ = bearing.ribs
+    except ValueError as error:
+        yield "end_radius", f"leaves no contact with the rib: {error}"
+
+
+def refuse_geometry_of_balls(inline: InlineGeometry | None, ledger: Ledger) -> None:
+    """Note values of [bearing.geometry] that describe balls."""
+    for name in inline.model_fields_set if inline is not None else ():
+        if name not in _SHARED and getattr(inline, name) is not None:
+            ledger.problem(
+                f"bearing.geometry.{name}", "is that of ball bearings; rollers are described in bearing.rollers"
+            )
