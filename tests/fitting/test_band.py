@@ -34,6 +34,7 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.domain.number_text import rounded
 from lambda_core.export.report.band_table import model_bands
+from lambda_core.export.report.study_points import study_points
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.api import case_of
@@ -46,6 +47,7 @@ from lambda_core.solver.drivers import equilibrium
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.studies.job import resolve_point
+from lambda_core.views.table import Column, StudyTable
 
 from .drawn_bearings import CHOSEN_WITH, drawn_bearings
 
@@ -434,7 +436,11 @@ def test_a_study_tells_the_band_of_its_case_and_of_each_point(
     assert curve.low is not None
     np.testing.assert_allclose(curve.low, torque.ends()[:, 0])
     page = api.report(tmp_path / "speeds", tmp_path / "speeds.html").read_text(encoding="utf-8")
-    assert f"<td>{torque.band_text(1)}</td>" in page
+    unbroken = re.sub(r"(\d) (\d)", "\\1\u00a0\\2", torque.band_text(1))
+    assert f"<td>{unbroken}</td>" in page
+    wide = Column("x", "N mm", "", (1240.0,), ((1180.0, 1620.0),))
+    (row,) = study_points(StudyTable("s", "s", "quasi-static", "crossed", (), (wide,), ("done",), ("",), ("",))).rows
+    assert row[2] == "1\u00a0180 .. 1\u00a0620"
     assert status.model_band.shares()[0] in page
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from lambda_core.domain.number_text import hours_alone
@@ -11,6 +12,7 @@ from lambda_core.views.table import Column, StudyTable
 
 _ROWS = 1000  # of the table
 _BAND = "90 % model band"
+_GROUPS = re.compile(r"(?<=\d) (?=\d)")  # between digits of one number, which a narrow column must not break
 
 
 def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
@@ -48,4 +50,6 @@ def _cells(column: Column, row: int, value: Any, units: UnitSystem) -> tuple[str
         plain = written(value)
     else:
         plain = hours_alone(value) if column.unit == "h" else rounded(units.value(value, column.unit), 4)
-    return (column.text(row, units) or plain, column.band_text(row, units)) if column.band else (plain,)
+    if not column.band:
+        return (plain,)
+    return column.text(row, units) or plain, _GROUPS.sub("\u00a0", column.band_text(row, units))
