@@ -137,7 +137,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     "RunScreen": (
         "Runs",
         "Runs wait for each other and go on when the builder is closed. The traces show the run under the cursor: "
-        "friction torque now with its running mean and its 95 % band, cage speed, and the load of each ball.",
+        "friction torque now with its running mean and its 95 % band, cage speed, and the load of each element.",
         (
             ("↑ ↓", "between the runs"),
             ("Enter or F6", "look at the result, finished or not"),

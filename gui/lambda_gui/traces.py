@@ -107,16 +107,16 @@ class CageTrace(Trace):
 
 
 class LoadTrace(Trace):
-    """The load of each ball on the inner ring now."""
+    """The load of each element on the inner ring now."""
 
     def draw(self, history: Sequence[Progress]) -> None:
         """Draw."""
-        self.clear("ball loads on the inner ring now [N]")
+        self.clear("element loads on the inner ring now [N]")
         loads = list(history[-1].inner_loads_N)
         if not loads:
             return
-        balls = [float(ball) for ball in range(1, len(loads) + 1)]
-        self.plt.bar(balls, loads, color=self.colour("accent"), marker="sd", width=0.6)
-        self.plt.xticks(balls, [f"{ball:.0f}" for ball in balls])
-        self.name_x("ball")
+        numbers = [float(number) for number in range(1, len(loads) + 1)]
+        self.plt.bar(numbers, loads, color=self.colour("accent"), marker="sd", width=0.6)
+        self.plt.xticks(numbers, [f"{number:.0f}" for number in numbers])
+        self.name_x("rolling element")
         self.ticks(0.0, 1.05 * max(*loads, 1.0), "y", max(2, self.size.height // 4))

@@ -289,7 +289,7 @@ async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
         typing.cancel()
         assert builder(pilot).draft.get("loads", "axial") == "250 N"
         await pilot.press("f7")
-        await wait_for(pilot, lambda: "ball loads" in screen_text(pilot.app) or not queue.active)
+        await wait_for(pilot, lambda: "element loads" in screen_text(pilot.app) or not queue.active)
         watching = asyncio.create_task(probe())
         await wait_for(pilot, lambda: not queue.active)
         watching.cancel()
