@@ -102,10 +102,14 @@ def show(
         return
     if not (models or parts):
         _print(f"{name} brings no law, method, view or other part; lambda-bearing plugins list has what it brings")
-    for number, card in enumerate((*models, *parts)):
+    cards: list[ModelCard | PartCard] = [*models, *parts]
+    for number, card in enumerate(cards):
         if number:
             _print("")
-        (_show_part if isinstance(card, api.PartCard) else _show_card)(card)
+        if isinstance(card, api.PartCard):
+            _show_part(card)
+        else:
+            _show_card(card)
 
 
 def _asked(name: str) -> tuple[list[ModelCard], list[PartCard], bool]:

@@ -14,7 +14,7 @@ from typing import Any, Literal, TypeVar
 from pydantic import BaseModel
 
 from lambda_core.catalogue.designation import designated, read_designation
-from lambda_core.catalogue.protocol import BearingRow, CageRow, LubricantRow, MaterialRow, RollerRow, Value
+from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow, RollerRow, Value
 from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, nearest, unknown_name
 from lambda_core.domain.units import from_si, parse
@@ -171,7 +171,7 @@ def _limits(catalogue: SqlCatalogue, row: AnyBearing, name: str) -> tuple[tuple[
     return (limits.minimum, limits.maximum), limits.grade, limits.source
 
 
-def rollers_found(catalogue: SqlCatalogue, text: str) -> list[RollerRow]:
+def rollers_found(catalogue: Catalogue, text: str) -> list[RollerRow]:
     """Return the roller bearings that match the words.
 
     Every word is a maker, a family, a kind or a series, a comparison such as "d=40", or a dimension; the others

@@ -88,5 +88,5 @@ def section_of_rollers(bearing: RollerBearing | RollerRow) -> RollerSection:
         lengths = (*(value.value for value in of_row), bearing.roller_diameter.value)  # type: ignore[assignment]
         length, clearance = bearing.roller_length.value, 0.0
         rib, angle = (0.0 if value is None else value.value for value in (bearing.rib_height, bearing.contact_angle))
-    sizes = (float(f"{1e3 * value:.12g}") for value in (*lengths, length))
-    return RollerSection(bearing.kind, *sizes, angle=angle, rib=1e3 * rib, clearance=clearance)
+    bore, outside, width, pitch, element, along = (float(f"{1e3 * value:.12g}") for value in (*lengths, length))
+    return RollerSection(bearing.kind, bore, outside, width, pitch, element, along, angle, 1e3 * rib, clearance)

@@ -150,7 +150,8 @@ class CatalogueScreen(Screen[Taken | None]):
         from lambda_db.presentation import rollers_found
 
         rollers = rollers_found(self.catalogue, text)
-        return [*self.catalogue.bearings(text, max(_MOST - len(rollers), _MOST // 2)), *rollers][:_MOST]
+        found: list[AnyBearing] = [*self.catalogue.bearings(text, max(_MOST - len(rollers), _MOST // 2)), *rollers]
+        return found[:_MOST]
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
         """Show the row under the cursor."""
@@ -172,7 +173,8 @@ class CatalogueScreen(Screen[Taken | None]):
         return rows[at] if 0 <= at < len(rows) else None
 
     def _show_details(self) -> None:
-        from lambda_db.drawing import section_of, section_of_rollers
+        from lambda_db.drawing import section_of
+        from lambda_db.roller_drawing import section_of_rollers
 
         from lambda_core.api import RollerRow
 

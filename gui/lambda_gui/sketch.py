@@ -6,7 +6,8 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from lambda_db.drawing import AIR, BALL, RING, AnySection, Section, section_of_rollers
+from lambda_db.drawing import AnySection, Section
+from lambda_db.roller_drawing import AIR, BALL, RING, section_of_rollers
 from rich.text import Text
 from textual.color import Color
 from textual.widgets import Static
