@@ -27,18 +27,18 @@ def soak(seed: int, number: int, folder: Path) -> Said:
     """
     load = random.Random(seed * 1_000_003 + number).choice(("1 kN", "1.3 kN", "1.6 kN"))
     changes = [f"operation.speed={_SPEED}", f"loads.axial={load}", f"solver.duration={SECONDS:g} s"]
-    # what is computed after the run, the band, has memory of its own
-    arguments = ["run", _CASE, "--out", "out.h5", "--progress", "json", "--band", "none"]
+    arguments = ["run", _CASE, "--out", "out.h5", "--progress", "json"]
     arguments += [word for change in changes for word in ("--set", change)]
     trial = Trial(arguments, folder, watched=folder / "out.h5")
     watched: list[tuple[float, float]] = []  # simulated time [s], resident memory [MiB]
 
     def look() -> None:
-        if (now := _simulated(folder)) and (resident := _resident(trial.process)):
+        now, resident = _simulated(folder), _resident(trial.process)
+        if resident and now > (watched[-1][0] if watched else 0.0):
             watched.append((now, resident))
 
     outcome = trial.wait(_LIMIT, look)
-    growth = _slope(watched)
+    growth = _slope(watched[:-1])  # at the last time the averages of all samples may have begun: as large as the file
     if outcome.good and not growth <= ALLOWED:
         outcome = outcome.but("growing", f"{growth:.3f} MiB per simulated second, {ALLOWED:g} are allowed")
     return outcome, line(arguments), {"growth_MiB_per_s": growth, "simulated_s": SECONDS}
