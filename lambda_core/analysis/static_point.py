@@ -160,7 +160,12 @@ class BearingPoint(ABC):
 
     @cached_property
     def summary(self) -> QuasiStatic:
-        """The equilibrium in the words of the machine interface."""
+        """The equilibrium in the words of the machine interface.
+
+        That of rollers is the mean over their positions in a pitch.
+        """
+        if self.rollers is not None:
+            return roller_answer(self.rollers, self.solved_rollers, self.model)
         return quasistatic_of(self.equilibrium)
 
     @property

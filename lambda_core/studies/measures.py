@@ -40,9 +40,12 @@ def _under_load(point: BearingPoint, name: str) -> FloatArray:
     return found
 
 
-def static_power(point: BearingPoint) -> float:
-    """Return the power of all contacts [W]."""
-    return float(point.equilibrium.losses.sum())
+def static_power(point: BearingPoint) -> float | None:
+    """Return the power of all contacts [W].
+
+    None of rollers where nothing turns.
+    """
+    return float(point.equilibrium.losses.sum()) if point.rollers is None else point.summary.power_loss_W
 
 
 def static_film(point: BearingPoint) -> float:

@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 Number = float | None
 BREAKDOWN = "friction_breakdown_Nmm"
+_RIB = f"{BREAKDOWN}.rib"  # of rollers; in a run it is among the sliding at the rings
 RATED = (
     "equivalent_load_N", "basic_life_h", "reference_life_h", "modified_life_h", "modified_reference_life_h",
     "viscosity_ratio", "static_safety",
@@ -86,18 +87,19 @@ def _field(name: str, index: int | None = None) -> Callable[[Any], Number]:
 
 def _part(name: str) -> Callable[[Any], Number]:
     def read(point: Any) -> Number:
-        value: Number = getattr(point.summary, BREAKDOWN)[name]
-        return value
+        parts: Mapping[str, Number] = getattr(point.summary, BREAKDOWN)
+        return parts.get(name, 0.0)  # rollers neither spin nor, at rest, have a cage
 
     return read
 
 
 def _parts() -> list[Response]:
     names = [*(name for name in LOSSES if name not in ("pocket", "land")), "cage"]
-    return [
+    found = [
         Response(f"{BREAKDOWN}.{name}", "N mm", f"friction torque: {name.replace('_', ' ')}", _part(name), _part(name))
         for name in names
     ]
+    return [*found, Response(_RIB, "N mm", "friction torque: ribs", _part("rib"))]
 
 
 def of_fields(kind: type[Record], names: Iterable[str]) -> Iterator[Response]:
@@ -237,8 +239,8 @@ def _of_machine() -> Iterator[Response]:
     yield _CONVERGED
 
 
-def _power(point: Any) -> Number:
-    return float(sum(found.losses.sum() for found in point.equilibria))
+def _power(point: StaticPoint) -> Number:
+    return float(sum(measures.static_power(one) or 0.0 for one in point.bearings.values()))
 
 
 def _deflection(point: Any) -> Number:
@@ -314,7 +316,10 @@ def responses_of(model: BearingModel | MachineModel) -> Mapping[str, Response]:
     """
     from lambda_core.studies.observed_responses import observed_responses
 
-    return {**responses_in(tuple(model.bearing_models)), **observed_responses(model)}
+    balls = [name for name, one in model.bearing_models.items() if one.rollers is None]
+    ribless = {f"{name}.{_RIB}" if name else _RIB for name in balls}
+    found = {name: one for name, one in responses_in(tuple(model.bearing_models)).items() if name not in ribless}
+    return {**found, **observed_responses(model)}
 
 
 def method_rows_among(names: Sequence[str], known: Mapping[str, Response]) -> tuple[str, ...]:
@@ -348,7 +353,8 @@ def chosen(
     wrong: list[Problem] = []
     for name in names or _usual(bearings, mode):
         if name.endswith(BREAKDOWN) and any(part.startswith(f"{name}.") for part in known):
-            found += [part for part in known if part.startswith(f"{name}.")]
+            parts = [part for part in known if part.startswith(f"{name}.")]
+            found += [part for part in parts if _of_mode(known[part], mode) is not None]
         elif "/" in name and name not in known:
             if own := [one for one in known if one.startswith(f"{name.partition('/')[0]}/")]:
                 wrong.append(Problem("responses", unknown_name("response", name, own)))
