@@ -8,7 +8,7 @@ from collections.abc import Callable
 from lambda_core.api import QueuedRun, RunQueue
 from lambda_gui.recovery import state_folder
 
-_PROGRAM = (sys.executable, "-P", "-m", "lambda_cli")
+_PROGRAM = (sys.executable, "-P", "-m", "lambda_cli.queued")
 
 
 def open_queue(ended: Callable[[QueuedRun], None]) -> RunQueue:

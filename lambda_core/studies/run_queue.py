@@ -27,11 +27,6 @@ State = Literal["waiting", "running", "done", "stopped", "failed"]
 _MOST_KEPT = 4000  # points of the progress; older ones are thinned out
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody took in are cleared away
-# Arguments of the program: to start, and to resume.
-_WORK: dict[RunKind, tuple[list[str], list[str]]] = {
-    "run": (["run", "case.toml", "--out"], ["resume"]),
-    "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
-}
 _COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result"}
 _SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result"}
 _ENDING: dict[RunKind, str] = {"run": ".h5", "study": ""}
@@ -47,7 +42,7 @@ class QueuedRun:
     name: str
     result: Path  # the file, or the folder of a study
     folder: Path  # of its own files: the case as it was, what it says
-    command: Sequence[str] = ()  # of the program that runs cases
+    command: Sequence[str] = ()  # of the program that does the work
     kind: RunKind = "run"
     resumes: bool = False
     state: State = "waiting"
@@ -96,10 +91,9 @@ class QueuedRun:
         """
         if self.state == "waiting":
             self._is_news = True
-            work = _WORK[self.kind][self.resumes]
             program = Program(self.folder)
             try:
-                program.start([*self.command, *work, str(self.result), "--progress=json", "--json"])
+                program.start([*self.command, self.kind, "resume" if self.resumes else "begin", str(self.result)])
             except OSError as error:
                 self.state, self.message = "failed", f"cannot be started: {error.strerror}"
             else:
@@ -219,7 +213,8 @@ class RunQueue:
     folder : pathlib.Path
         Where runs have their own files.
     command : sequence of str
-        The program that runs cases, as a command.
+        Program that does the work. It takes the kind, "begin" or "resume", and the path of the result; it works in a
+        folder with ``case.toml`` and ``study.toml``. On stderr it writes one JSON object a line.
     ended : callable
         Called with each run that has ended.
     """
