@@ -8,24 +8,26 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import NONE, digits, number
+from lambda_core.domain.number_text import NONE, digits
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import lines_under, wrapped
 from lambda_core.results.band_text import banded
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.machine_numbers import said_once
-from lambda_core.results.quantity import shown
+from lambda_core.results.quantity import quantities, quantity_of, shown
 from lambda_core.results.text import (
     PLACED,
     assumption_lines,
     band_lines,
     breakdown_lines,
+    headed,
     life_line,
     line,
+    named,
     other_lines,
-    place_text,
     rating_lines,
     shoulder_lines,
+    vector,
     verdict_line,
     verdict_lines,
     warning_lines,
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
     from lambda_core.results.machine_numbers import Swing
     from lambda_core.results.ring_deformation import RingDeformation
     from lambda_core.results.summary import Summary
+
+_FACTS = quantities(BearingSummary)
 
 
 def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
@@ -74,25 +78,29 @@ def bearing_lines(one: BearingSummary, width: int | None, units: UnitSystem, alo
         *verdict_lines(one.verdict, units),
         *_torque_lines(one, window, converged, units),
         *breakdown_lines(one.friction_breakdown_Nmm, units),
-        line("power loss", shown(one, "power_loss_W", units)),
+        headed(one, "power_loss_W", units),
         *rating_lines(one.rating, units, one.reference_life_h_band),
         line(
             "film",
             f"minimum {shown(one, 'min_film_um', units)}",
             f"central {shown(one, 'film_um', units)}",
-            f"Lambda {shown(one, 'film_parameter')} (central)",
+            f"{named(one, 'film_parameter')} (central)",
         ),
         *warning_lines([units.sentence(warning) for warning in one.warnings], width),
-        *([line("input torque", shown(one, "input_torque_Nmm", units))] if one.input_torque_Nmm is not None else []),
+        *([headed(one, "input_torque_Nmm", units)] if one.input_torque_Nmm is not None else []),
         line("cage speed", f"{shown(one, 'cage_speed_ratio')} of inner ring", *_cages(one)),
-        line("inner ring", f"{place_text(one.inner_ring_displacement_um, units)} (mean)", _tilt(one)),
+        line(
+            "inner ring",
+            f"{vector(one, 'inner_ring_displacement_um', units)} (mean)",
+            f"tilt {vector(one, 'inner_ring_tilt_mrad', units)}",
+        ),
         *([_force_line(one, units)] if alone is not None and one.force_N else []),
         *lines_under("ovality", [_oval(bent, units) for bent in one.bent]),
-        line("pressure", f"p_max {shown(one, 'max_pressure_GPa', units)}"),
+        line("pressure", named(one, "max_pressure_GPa", units)),
         *_capacitance(one),
         *([line("", one.capacitance_note)] if one.capacitance_note else []),
         *_currents(one.currents),
-        *([line("dampers", shown(one, "support_power_W", units))] if one.support_power_W is not None else []),
+        *([headed(one, "support_power_W", units)] if one.support_power_W is not None else []),
         *other_lines(one, units),
         *(_element_lines(alone, units) if alone is not None else []),
         *_watched_lines(one),
@@ -112,9 +120,9 @@ def _machine_lines(found: Summary, width: int | None, units: UnitSystem) -> list
         f"{found.case}, {found.speed_rpm:.5g} 1/min",
         *verdict_line({name: one.verdict for name, one in found.bearings.items()}),
         *(_force_line(one, units, name) for name, one in found.bearings.items()),
-        line("drive torque", shown(found, "drive_torque_Nm", units)),
+        headed(found, "drive_torque_Nm", units),
         *_torque_lines(found, "(95 %)", found.converged, units, "of all bearings"),
-        line("power loss", shown(found, "power_loss_W", units), "of all bearings"),
+        line(_FACTS["power_loss_W"].column, shown(found, "power_loss_W", units), "of all bearings"),
         *life_line(found.system_life_h),
         line(
             "largest orbit", f"y ± {_length(largest.swing_um[1], units)}", f"z ± {_length(largest.swing_um[2], units)}",
@@ -129,9 +137,10 @@ def _machine_lines(found: Summary, width: int | None, units: UnitSystem) -> list
 
 def _end_lines(summary: Summary, units: UnitSystem) -> list[str]:
     """Return a run's trust and place."""
+    residual = quantity_of(summary, "energy_residual")
     return [
         *other_lines(summary, units, PLACED | BearingSummary.model_fields.keys()),
-        line("energy residual", f"{shown(summary, 'energy_residual')} of input", _iteration(summary)),
+        line(residual.column, f"{shown(summary, residual.name)} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
@@ -148,14 +157,15 @@ def _torque_lines(
     The scatter of its average and a model band are separate.
     """
     verdict = "converged" if converged else "NOT CONVERGED"
-    mean = units.plus_minus(found.friction_torque_Nmm, found.friction_torque_ci_Nmm, "N mm")
+    head, unit = _FACTS["friction_torque_Nmm"].column, _FACTS["friction_torque_Nmm"].unit
+    mean = units.plus_minus(found.friction_torque_Nmm, found.friction_torque_ci_Nmm, unit)
     band = found.friction_torque_Nmm_band
     if not band:
-        return [line("friction torque", mean, window, whose, verdict)]
+        return [line(head, mean, window, whose, verdict)]
     width = found.friction_torque_ci_Nmm
-    scatter = "" if width is None else f"± {units.value(width, 'N mm'):.2g} {units.unit('N mm')}"
+    scatter = "" if width is None else f"± {units.value(width, unit):.2g} {units.unit(unit)}"
     return [
-        line("friction torque", banded(found.friction_torque_Nmm, band, "N mm", mean, units), whose, verdict),
+        line(head, banded(found.friction_torque_Nmm, band, unit, mean, units), whose, verdict),
         line("  scatter", scatter or NONE, window),
     ]
 
@@ -231,11 +241,6 @@ def _oval(found: RingDeformation, units: UnitSystem) -> str:
     """Say how oval an elastic part was."""
     mean, most = (units.text(value, "um", 2) for value in (found.mean_ovality_um, found.largest_ovality_um))
     return f"{found.part} {mean} on average, {most} at most"
-
-
-def _tilt(one: BearingSummary) -> str:
-    y, z = (number(angle, 2) for angle in one.inner_ring_tilt_mrad)
-    return f"tilt y {y}  z {z} mrad"
 
 
 def _cages(one: BearingSummary) -> list[str]:

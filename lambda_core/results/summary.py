@@ -101,7 +101,7 @@ class Summary(Record):
     speed_rpm: float | None = Field(description="of a machine's shaft at t = 0", default=None)
     drive_torque_Nm: float | None = quantity(
         "of the coupling on a machine's shaft, with friction; null where torques change", "N m",
-        label="torque of the coupling on the shaft", decimals=3, group="friction", default=None,
+        label="torque of the coupling on the shaft", column="drive torque", decimals=3, group="friction", default=None,
     )  # fmt: skip
     system_life_h: float | None = quantity(
         "of all bearings of a machine by their reference rating lives at the start, 90 %", "h",

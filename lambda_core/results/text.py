@@ -10,7 +10,7 @@ from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
 from lambda_core.results.band_text import band_text, ends, source_lines, temperature_text
-from lambda_core.results.quantity import Quantity, quantities, remaining, shown, shown_numbers
+from lambda_core.results.quantity import Quantity, quantities, quantity_of, remaining, shown, shown_numbers
 
 if TYPE_CHECKING:
     from lambda_core.results.bearing_summary import Contact
@@ -27,9 +27,9 @@ _REST = ("rib", "cage", "drag", "bending")
 # Numbers that texts and reports place by hand; every other declared number with a column follows them.
 PLACED = frozenset({
     "bearing_capacitance_nF", "cage_speed_over_epicyclic", "cage_speed_ratio", "contact_capacitance_pF",
-    "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm", "inner_ring_displacement_um",
-    "inner_ring_tilt_mrad", "loaded_elements", "max_load_N", "max_pressure_GPa", "min_film_um", "power_loss_W",
-    "second_cage_speed_ratio", "support_power_W",
+    "drive_torque_Nm", "energy_residual", "film_parameter", "film_um", "friction_torque_Nmm",
+    "inner_ring_displacement_um", "inner_ring_tilt_mrad", "loaded_elements", "max_load_N", "max_pressure_GPa",
+    "min_film_um", "power_loss_W", "second_cage_speed_ratio", "support_power_W",
     # of a bearing in the equilibrium of a machine
     "axial_load_N", "basic_life_h", "contact_angle_deg", "displacement_um", "force_N",
     "misalignment_mrad", "modified_life_h", "modified_reference_life_h", "moment_Nm", "position_mm",
@@ -193,15 +193,11 @@ def statics_lines(found: QuasiStatic, width: int | None, units: UnitSystem, *, i
         line(
             "equilibrium",
             f"{found.loaded_elements} {element}s loaded",
-            f"Q_max {shown(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
-            f"p_max {shown(found, 'max_pressure_GPa', units)}",
+            f"{named(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
+            named(found, "max_pressure_GPa", units),
         ),
-        line(
-            "inner ring",
-            *place_with_play(found.inner_ring_displacement_um, found.axial_play_um, units),
-            f"tilt y {tilt_y:z.4f}  z {tilt_z:z.4f} mrad",
-        ),
-        *([line("contact angles", shown(found, "contact_angle_deg", units))] if is_section else []),
+        line("inner ring", *_place_with_play(found, units), f"tilt y {tilt_y:z.4f}  z {tilt_z:z.4f} mrad"),
+        *([headed(found, "contact_angle_deg", units)] if is_section else []),
         *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),
@@ -250,8 +246,8 @@ def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
         return [line("friction torque", "none: nothing turns")]
     own = found.rollers
     shares = "" if own is None else f"raceways {_percent(own.raceway_share)}, ribs {_percent(own.rib_share)}"
-    loss = [line("power loss", shown(found, "power_loss_W", units))] if found.power_loss_W is not None else []
-    torque = line("friction torque", shown(found, "friction_torque_Nmm", units), "(without cage)", shares)
+    loss = [headed(found, "power_loss_W", units)] if found.power_loss_W is not None else []
+    torque = headed(found, "friction_torque_Nmm", units, "(without cage)", shares)
     return [torque, *breakdown_lines(found.friction_breakdown_Nmm, units), *loss]
 
 
@@ -273,7 +269,7 @@ def _motion_lines(found: QuasiStatic, element: str, units: UnitSystem) -> list[s
     return [
         *([line("rolling factors", *factors)] if factors else []),
         line(f"{element} orbit", f"{shown(found, 'orbit_speed_ratio')} of inner ring"),
-        line("film", *films, f"Lambda {shown(found, 'film_parameter')}"),
+        line("film", *films, named(found, "film_parameter")),
     ]
 
 
@@ -300,6 +296,17 @@ def _rib_lines(own: RollerStatics, units: UnitSystem) -> list[str]:
 def line(head: str, *parts: str) -> str:
     """Return one line: what it is about, then its parts."""
     return f"{head:<{HEAD}}{'   '.join(part for part in parts if part)}".rstrip()
+
+
+def headed(record: Record, name: str, units: UnitSystem, *more: str) -> str:
+    """Return the line of one declared number."""
+    one = quantity_of(record, name)
+    return line(one.column or one.label, shown(record, name, units), *more)
+
+
+def named(record: Record, name: str, units: UnitSystem = SI) -> str:
+    """Write a declared number behind its short name."""
+    return f"{quantity_of(record, name).column} {shown(record, name, units)}"
 
 
 def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -> list[str]:
@@ -346,17 +353,17 @@ def assumption_lines(assumptions: Sequence[str], file: str = "", where: str = ""
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 
-def place_text(position: Sequence[float | None], units: UnitSystem) -> str:
-    """Write a displacement [um] along x, y and z."""
-    axes = (f"{axis} {units.number(value, 'um', 2)}" for axis, value in zip("xyz", position, strict=True))
-    return f"{'  '.join(axes)} {units.unit('um')}"
+def vector(record: Record, name: str, units: UnitSystem = SI) -> str:
+    """Write a declared vector with its axes and unit."""
+    return by_axis(quantity_of(record, name), getattr(record, name), units)
 
 
-def place_with_play(place: Sequence[float], play: float | None, units: UnitSystem) -> list[str]:
+def _place_with_play(found: QuasiStatic, units: UnitSystem) -> list[str]:
     """Write a displacement with its axial play [um].
 
     The play counts where the ring has moved through half of it.
     """
-    if not play or abs(place[0]) < 0.5 * play:
-        return [place_text(place, units)]
-    return [place_text(place, units), f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]
+    place, play = vector(found, "inner_ring_displacement_um", units), found.axial_play_um
+    if not play or abs(found.inner_ring_displacement_um[0]) < 0.5 * play:
+        return [place]
+    return [place, f"x includes {units.number(play, 'um', 2)} {units.unit('um')} of axial play"]

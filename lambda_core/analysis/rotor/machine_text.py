@@ -14,6 +14,7 @@ from lambda_core.results.model_band import sum_of_bands
 from lambda_core.results.quantity import banded_text, quantities, shown
 from lambda_core.results.text import (
     by_axis,
+    headed,
     life_line,
     line,
     statics_lines,
@@ -64,7 +65,7 @@ def _machine_lines(found: MachineEquilibrium, width: int | None, units: UnitSyst
         *verdict_line({one.name: one.verdict for one in found.bearings}),
         *(line(forces.column, by_axis(forces, one.force_N, units), f"of {one.name}") for one in found.bearings),
         *parts,
-        line("drive torque", shown(found, "drive_torque_Nm", units)),
+        headed(found, "drive_torque_Nm", units),
         *_loss_lines(found, units),
         *life_line(found.system_life_h),
         *_bending_lines(found, units),
@@ -83,16 +84,17 @@ def _loss_lines(found: MachineEquilibrium, units: UnitSystem) -> list[str]:
 
     Bearings whose torque is unknown have their names here.
     """
+    facts = quantities(type(found.bearings[0]))
+    torque, loss = facts["friction_torque_Nmm"].column, facts["power_loss_W"]
     if found.speed_rpm == 0.0:
-        return [line("friction torque", _AT_REST)]
+        return [line(torque, _AT_REST)]
     unknown = [one.name for one in found.bearings if one.friction_torque_Nmm is None]
     if unknown:
-        return [line("friction torque", f"unknown: no steady motion was found in {', '.join(unknown)}")]
-    loss = quantities(type(found.bearings[0]))["power_loss_W"]
+        return [line(torque, f"unknown: no steady motion was found in {', '.join(unknown)}")]
     power = total(one.power_loss_W for one in found.bearings)
     ends = sum_of_bands([one.power_loss_W_band for one in found.bearings])
     return [
-        line("friction torque", shown(found, "friction_torque_Nmm", units), "of all bearings"),
+        line(torque, shown(found, "friction_torque_Nmm", units), "of all bearings"),
         line(loss.column, banded_text(loss, power, ends, units), "of all bearings"),
     ]
 
