@@ -9,13 +9,15 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import ValidationError
 
+from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.discovery.api import Registry
 from lambda_core.domain.errors import LambdaError
 from lambda_core.formulas.ratings import dynamic_rating, static_rating
+from lambda_core.model.laws.oil_data import oil_data
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.derive import UPRATED, filling_angle
 from lambda_db.engine import at_one_moment
@@ -124,17 +126,20 @@ def _clearances(rows: list[Row]) -> Iterator[Finding]:
 def _lubricants(catalogue: SqlCatalogue, models: Registry) -> Iterator[Finding]:
     for lubricant in catalogue.lubricants(limit=100_000):
         where = f"lubricant {lubricant.name}"
-        if lubricant.rheology not in lubricant.parameters.get("rheology", {}):
+        has_rows = lubricant.rheology in lubricant.parameters.get("rheology", {})
+        if not has_rows and list(_law(lubricant, "rheology", lubricant.rheology, models)):
             yield Finding("error", where, f"its rheology is {lubricant.rheology}, but it has no parameters for it")
         for role, laws in lubricant.parameters.items():
-            for name, parameters in laws.items():
-                yield from _law(where, role, name, parameters, models)
+            for name in laws:
+                yield from _law(lubricant, role, name, models)
 
 
-def _law(where: str, role: str, name: str, parameters: dict[str, Any], models: Registry) -> Iterator[Finding]:
+def _law(lubricant: LubricantRow, role: str, name: str, models: Registry) -> Iterator[Finding]:
+    where = f"lubricant {lubricant.name}"
     try:
         law = models.model(role, name)
-        law.parameters.model_validate({key: parameter.text() for key, parameter in parameters.items()})
+        known = oil_data(law, lubricant, lubricant.parameters.get(role, {}).get(name, {}))
+        law.parameters.model_validate({key: parameter.text() for key, parameter in known.items()})
     except ValidationError as error:
         for problem in error.errors():
             place = ".".join(map(str, problem["loc"]))

@@ -238,7 +238,8 @@ class Materials(Section):
 class InlineLubricant(Section):
     """Oil written in the case.
 
-    It has what every oil needs; its laws take parameters.<role>.
+    It has what every oil needs. Its laws take required parameters of the same name from here, others from
+    parameters.<role>.
     """
 
     base_type: str = option("mineral", "kind of base oil", min_length=1)

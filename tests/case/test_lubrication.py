@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.errors import CaseError, LambdaError
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import solve
@@ -108,3 +108,29 @@ def test_a_jet_drags_less_than_a_bath_and_the_cage_keeps_its_speed() -> None:
     assert power_of_drag(jet) < 0.5 * power_of_drag(api.check(FAST))
     free, slowed = (solve(model).orbit for model in (api.check(FAST, ["models.fluid_drag=none"]), jet))
     assert 0.94 < slowed / free <= 1.0
+
+
+def test_an_oil_has_its_viscosities_once() -> None:
+    """Take parameters that a law requires from properties.
+
+    They have the same name; what the case gives a law comes before them.
+    """
+    properties = {
+        "rheology": "roelands", "thermal_conductivity": "0.14 W/(m K)", "specific_heat": "1900 J/(kg K)",
+        "kinematic_viscosity_40": "68 mm2/s", "kinematic_viscosity_100": "8.7 mm2/s", "density_15": "880 kg/m3",
+    }  # fmt: skip
+    case = {
+        "name": "own", "bearing": {"designation": "SKF 6208"}, "loads": {"radial": "1 kN"},
+        "operation": {"speed": "1500 rpm"},
+        "lubricant": {"name": "mine", "temperature": "60 degC", "properties": properties},
+        "parameters": {"rheology": {"alpha_p": "20 1/GPa", "density_slope": -0.65}},
+    }  # fmt: skip
+    law = api.check(case, is_static=True).laws["ball_inner"]["rheology"]
+    assert law.parameters.kinematic_viscosity_40 == 68e-6
+    assert law.parameters.density_15 == 880.0
+    assert law.origins["kinematic_viscosity_40"] == "case"
+    law = api.check(case, ["parameters.rheology.density_15=870 kg/m3"], is_static=True).laws["ball_inner"]["rheology"]
+    assert law.parameters.density_15 == 870.0
+    del properties["density_15"]
+    with pytest.raises(CaseError, match=r"parameters\.rheology\.density_15.*needs it, and the lubricant mine has no"):
+        api.check(case, is_static=True)

@@ -5,15 +5,18 @@ What constraints cannot see is found, and the built-in rows have no errors.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.check import Finding, check_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row, rows_of
 
 from lambda_core.discovery.manager import registry
+from lambda_core.model.checks.oil_table import OilLaw
 
 if TYPE_CHECKING:
     from conftest import Meanwhile
@@ -68,6 +71,25 @@ def test_what_is_found(catalogue: SqlCatalogue) -> None:
     assert "error clearance CN: the ranges to 40 mm and from 35 mm overlap" in text
     assert "warning bearing F1 t: 12 balls of 12 mm span 254 deg" in text
     assert "dynamic_rating 50 kN is not the" in text
+
+
+def test_an_oil_of_ones_own_has_its_viscosities_once(catalogue: SqlCatalogue) -> None:
+    """Complete a law's rows from the oil's properties."""
+    common = {"source": "test", "grade": "B"}
+    add_row(catalogue, "lubricant", {"name": "mine", "base_type": "mineral", "rheology": "roelands"})
+    numbers = {"kinematic_viscosity_40": ("68", "mm2/s"), "kinematic_viscosity_100": ("8.7", "mm2/s")}
+    numbers |= {"density_15": ("880", "kg/m3"), "thermal_conductivity": ("0.14", "W/(m K)")}
+    for name, (value, unit) in numbers.items():
+        add_row(
+            catalogue, "lubricant_property", {"lubricant": "mine", "name": name, "value": value, "unit": unit} | common
+        )
+    key = {"lubricant": "mine", "role": "rheology", "model": "roelands"}
+    add_row(catalogue, "lubricant_parameter", key | {"name": "alpha_p", "value": "20", "unit": "1/GPa"} | common)
+    assert "its rheology" not in " ".join(found.message for found in findings(catalogue))
+    add_row(catalogue, "lubricant_parameter", key | {"name": "density_slope", "value": "-0.65"} | common)
+    assert [found for found in findings(catalogue) if found.where == "lubricant mine"] == []
+    point, density = OilLaw(catalogue.lubricant("mine"), registry()).state(0.0, 313.15)
+    assert math.exp(point) / density == pytest.approx(68e-6, rel=1e-6)
 
 
 def test_a_damaged_user_file_is_an_error(user_folder: Path) -> None:

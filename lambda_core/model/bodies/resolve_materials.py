@@ -14,6 +14,7 @@ from lambda_core.domain.units import show
 from lambda_core.formulas.elastic.sections import BodyMaterial
 from lambda_core.formulas.fits import Solid
 from lambda_core.laws.context import Material, Oil
+from lambda_core.model.laws.oil_data import FROM_CASE
 from lambda_core.model.ledger import Ledger
 
 # No lubricating oil is liquid below, and none is left above: hydrocarbons crack from about 350 degC on, the most
@@ -201,7 +202,7 @@ def _inline_row(lubricant: Lubricant) -> LubricantRow | None:
         return None
     names = ("thermal_conductivity", "specific_heat", "kinematic_viscosity_40", "kinematic_viscosity_100", "density_15")
     properties = {
-        name: Value(value=number, source="case", grade="")
+        name: Value(value=number, source=FROM_CASE, grade="")
         for name in names
         if (number := getattr(own, name)) is not None
     }

@@ -19,6 +19,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.laws.law import Law
 from lambda_core.laws.par import flat_kernel, make_par
 from lambda_core.laws.probe import trial_context
+from lambda_core.model.laws.oil_data import oil_data
 
 if TYPE_CHECKING:
     from lambda_core.discovery.api import Registry
@@ -75,7 +76,7 @@ class OilLaw:
     def __init__(self, row: LubricantRow, models: Registry, name: str | None = None) -> None:
         known = row.parameters.get("rheology", {})
         self.name = name or row.rheology
-        if self.name not in known:
+        if self.name not in (*known, row.rheology):
             raise CatalogueError(row.name, [Problem("rheology", unknown_name("law with data", self.name, known))])
         self.model = models.model("rheology", self.name)
         self._par = _prepared(self.model, row, "rheology")
@@ -109,7 +110,8 @@ class OilLaw:
 
 
 def _prepared(law: Law, row: LubricantRow, role: str) -> FloatArray:
-    texts = {name: parameter.text() for name, parameter in row.parameters[role][law.name].items()}
+    known = oil_data(law, row, row.parameters.get(role, {}).get(law.name, {}))
+    texts = {name: parameter.text() for name, parameter in known.items()}
     try:
         parameters = law.parameters.model_validate(texts)
     except ValidationError as error:

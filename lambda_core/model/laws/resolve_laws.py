@@ -25,6 +25,7 @@ from lambda_core.laws.parameter import kind_defaults
 from lambda_core.model.bearing_model import ChosenLaw
 from lambda_core.model.laws.law_defaults import MEASURED, law_sentences, record_law, short
 from lambda_core.model.laws.law_packages import law_called
+from lambda_core.model.laws.oil_data import FROM_CASE, oil_data
 from lambda_core.model.ledger import Ledger
 
 NONE = "none"
@@ -166,8 +167,8 @@ class LawResolver:
             return None
         origins = {}
         for key in type(parameters).model_fields:
-            if key in case_texts:
-                origins[key] = "case"
+            if key in case_texts or (key in rows and rows[key].source == FROM_CASE):
+                origins[key] = FROM_CASE
             elif key in rows and self.lubricant:
                 grade = MEASURED if rows[key].status == "measured" else ", grade "
                 origins[key] = f"lubricant {self.lubricant.name} ({rows[key].source}{grade}{rows[key].grade})"
@@ -260,7 +261,12 @@ class LawResolver:
         return self.lubricant.rheology if self.lubricant else NONE
 
     def _lubricant_rows(self, role: str, chosen: Law) -> Mapping[str, Any]:
-        """Return the oil's data for a law.
+        """Return the oil's data for a law, its properties included."""
+        known = self._rows_of_law(role, chosen)
+        return known if self.lubricant is None else oil_data(chosen, self.lubricant, known)
+
+    def _rows_of_law(self, role: str, chosen: Law) -> Mapping[str, Any]:
+        """Return the oil's rows for a law.
 
         Data of one of ours is not for another's of the same name.
         """
