@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from lambda_core.analysis.band.neighbours import spread_out
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.fitting.parameters import Parameter
+from lambda_core.fitting.shared_errors import SharedErrors
 
 # Sizes over that known beforehand: midpoints of equally likely parts of a half-normal distribution.
 _PARTS = 12
@@ -37,6 +38,7 @@ _MOST = 200  # measured values that decide the errors of laws: the work grows wi
 # changes by its own size over about one. Log-uniform over a factor of four both ways.
 _REACHES = (0.25, 0.5, 1.0, 2.0, 4.0)
 _MARGIN = 0.05  # e-folds beyond the range of measured conditions that still count as inside
+_APART = SharedErrors()
 _LEAST_ERROR = 1e-6  # of a measured value
 _CONDITIONS = ("speed", "radial load", "axial load", "moment y", "moment z")  # over which it changes
 
@@ -136,6 +138,7 @@ def predict(
     at: Place,
     asked: Place,
     asked_errors: FloatArray | float = 0.0,
+    shared: SharedErrors = _APART,
 ) -> Prediction:
     """Predict values with their errors.
 
@@ -155,6 +158,8 @@ def predict(
         Where values are wanted.
     asked_errors : float64[:] or float
         Standard deviations of new measurements there; 0 for the true values.
+    shared : SharedErrors
+        What the errors of measured values have in common.
 
     Returns
     -------
@@ -164,7 +169,7 @@ def predict(
 
     if measured.size > _MOST:
         rows = _far_apart(at.coordinates)
-        at, measured, errors = _rows(at, rows), measured[rows], errors[rows]
+        at, measured, errors, shared = _rows(at, rows), measured[rows], errors[rows], shared.among(rows)
     before, spread = _known_before(parameters)
     offset = before - values
     both = _joined(at, asked)
@@ -174,7 +179,7 @@ def predict(
     mean = both.predicted + both.jacobian @ offset
     linear = both.jacobian * spread
     known = linear[:count] @ linear.T
-    known[:, :count] += np.diag(np.maximum(errors, floor) ** 2)
+    known[:, :count] += shared.covariance(np.maximum(errors, floor))
     size = np.abs(both.predicted) * both.sizes
     apart = _beyond(at.coordinates, asked.coordinates)[:count]
     products = np.outer(size[:count], size)

@@ -256,8 +256,7 @@ def _suggestion(problem: CaseProblem, found: Fit) -> SuggestedPoint | None:
         return None
     relative = float(np.median(found.errors * found.scale / np.abs(found.predicted)))
     slopes = table[solved, 1:] / (relative * np.abs(table[solved, :1]))
-    jacobian = found.jacobian / (found.errors * found.scale)[:, None]
-    best = next_point(jacobian, slopes, found.parameters)
+    best = next_point(found.information, slopes, found.parameters, found.factor)
     conditions = points[int(solved[best.index])]
     return SuggestedPoint(
         conditions={name: show(value, problem.quantities[name], 4) for name, value in conditions.items()},
@@ -278,7 +277,7 @@ def _report(
     share = relative(found.predicted - found.data.values, found.data.values)
     left_out = relative(found.left_out, found.data.values)
     is_known, degrees = found.data.is_error_known, found.degrees
-    chi_square = float(np.sum(found.standardised**2)) / degrees if is_known and degrees > 0 else None
+    chi_square = float(np.sum(found.independent**2)) / degrees if is_known and degrees > 0 else None
     return FitReport(
         case=subject.name,
         title=subject.title,
@@ -383,7 +382,7 @@ def _warnings(problem: CaseProblem, found: Fit) -> list[str]:
             f"The residuals {what} (p = {first.adjusted:.2g}): a law or a condition is wrong or missing, and fitted "
             "values only compensate for it."
         )
-    larger = misfit(found.standardised, len(found.free)) if found.data.is_error_known else 0.0
+    larger = misfit(found.independent, len(found.free)) if found.data.is_error_known else 0.0
     if larger and not any(test.name == "scatter" for test in patterns):
         warnings.append(
             f"Typical residuals are {larger:.2g} times the errors given: an error, a condition or a law is wrong."

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.number_text import counted
 from lambda_core.fitting import uncertainty as U
+from lambda_core.fitting.data import Data
 from lambda_core.fitting.model_calls import Model, ModelCalls
 from lambda_core.fitting.parameters import Parameter, bounds, spreads, starts
 from lambda_core.fitting.residual_tests import ResidualTest, residual_tests
+from lambda_core.fitting.shared_errors import SharedErrors
 
 _ROUNDS = 6  # of weights from the residuals of the round before
 _SETTLED = 0.02  # of a standard deviation, and of the scatter: change that ends the rounds
@@ -22,44 +24,7 @@ _NORMAL_MAD = 1.482602218505602  # standard deviation over median absolute devia
 _STEP = 1e-6  # of a parameter, for slopes where no Jacobian is given
 _OUTLIER = 3.5  # standardised residual (Iglewicz and Hoaglin 1993)
 _AT_LIMIT = 1e-3  # of the distance between the bounds
-_SMALLEST_SHARE = 1e-3  # of the median value, which proportional errors do not go below
 CONFIDENCE = 0.95
-
-
-@dataclass(frozen=True)
-class Data:
-    """Measured values with their errors.
-
-    Attributes
-    ----------
-    values : float64[:], shape (n,)
-        Measured values.
-    errors : float64[:], shape (n,)
-        Standard deviations; where `is_error_known` is False only their ratios count.
-    columns : mapping of str to float64[:]
-        Operating conditions, for tests of the residuals.
-    input_errors : float64[:, :], shape (n, k)
-        Standard deviations of k operating conditions; empty where they are exact.
-    is_error_known : bool
-        Whether the size of the errors is known; otherwise the scatter of the residuals gives it.
-    is_proportional : bool
-        Whether `errors` are shares of the predicted values. Shares of the measured ones would tie errors to noise.
-    """
-
-    values: FloatArray
-    errors: FloatArray
-    columns: Mapping[str, FloatArray] = field(default_factory=dict)
-    input_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
-    is_error_known: bool = True
-    is_proportional: bool = False
-
-    def absolute(self, predicted: FloatArray) -> FloatArray:
-        """Return the errors in the unit of the values."""
-        if not self.is_proportional:
-            return self.errors
-        size = np.abs(predicted)
-        found: FloatArray = self.errors * np.maximum(size, _SMALLEST_SHARE * float(np.median(size)))
-        return found
 
 
 @dataclass(frozen=True)
@@ -80,6 +45,8 @@ class Fit:
         Parameters at one of their bounds.
     predicted, errors : float64[:], shape (n,)
         Predicted values; standard deviations of the measured ones with those of the operating conditions.
+    shared : SharedErrors
+        Which of these the values of one operating point have in common.
     jacobian : float64[:, :], shape (n, p)
         Derivatives of the predicted values by all parameters.
     directions : list of Direction
@@ -104,6 +71,7 @@ class Fit:
     at_limit: tuple[int, ...]
     predicted: FloatArray
     errors: FloatArray
+    shared: SharedErrors
     jacobian: FloatArray
     directions: list[U.Direction]
     scale: float
@@ -142,17 +110,45 @@ class Fit:
         return found
 
     @property
-    def leverages(self) -> FloatArray:
-        """Leverage of each point on the fit."""
+    def independent(self) -> FloatArray:
+        """Residuals with independent errors of size one.
+
+        They are the standardised ones where each point has one value.
+        """
+        return self.shared.apart(self.standardised)
+
+    @property
+    def slopes(self) -> FloatArray:
+        """Derivatives of the independent residuals' predictions."""
+        return self.shared.apart(self.jacobian / (self.errors * self.scale)[:, None])
+
+    @property
+    def weights(self) -> FloatArray:
+        """Share with which each independent residual counts."""
+        return U.huber_weights(self.independent, self.limit)
+
+    @property
+    def information(self) -> FloatArray:
+        """Derivatives whose square is the information.
+
+        It counts the weights of the residuals, not yet their factor; shape (min(n, p), p).
+        """
+        return U.counted(self.slopes, self.weights)
+
+    @property
+    def _basis(self) -> FloatArray:
+        """Orthonormal basis of what the parameters change."""
         if not self.jacobian[:, self.free].any():  # all are held, or the search was stopped before it had slopes
-            return np.zeros(self.data.values.size)
-        weighted = self.jacobian[:, self.free] / self.errors[:, None]
-        return U.leverages(weighted, U.huber_weights(self.standardised, self.limit))
+            return np.zeros((self.data.values.size, 0))
+        found: FloatArray = np.linalg.qr(self.slopes[:, self.free] * np.sqrt(self.weights)[:, None])[0]
+        return found
 
     @property
     def outliers(self) -> list[int]:
         """Points whose residual is too large for their error."""
-        size = np.abs(self.standardised) / np.sqrt(1.0 - self.leverages * (math.isinf(self.limit)))
+        size = np.abs(self.standardised)
+        if math.isinf(self.limit):
+            size = size / np.sqrt(1.0 - U.leverages(self._basis))
         return [int(index) for index in np.flatnonzero(size > _OUTLIER)]
 
     @property
@@ -161,7 +157,9 @@ class Fit:
 
         It is the predicted less the measured value.
         """
-        return U.left_out_residuals(self.predicted - self.data.values, self.leverages)
+        roots = np.sqrt(self.weights)
+        found = U.left_out_residuals(-self.independent * roots, self._basis, self.data.groups)
+        return self.shared.together(found / roots) * self.errors * self.scale
 
     def quantile(self, confidence: float = CONFIDENCE) -> float:
         """Return the quantile of Student's distribution for degrees of freedom.
@@ -184,9 +182,7 @@ class Fit:
         Without a range that is nothing for fitted ones.
         """
         spread = spreads(self.parameters)
-        slopes = self.jacobian / (self.errors * self.scale)[:, None]
-        weighted = U.counted(slopes, U.huber_weights(self.standardised, self.limit))
-        information = weighted.T @ weighted / self.factor
+        information = self.information.T @ self.information / self.factor
         low, high = bounds(self.parameters)
         known = np.isfinite(high - low)
         known[list(self.held)] = True
@@ -297,7 +293,7 @@ class _Search:
         self._recorder, self._parameters, self._data = recorder, parameters, data
         self._input_slopes, self._limit = input_slopes, limit
         self._point = starts(parameters)
-        self._errors, self._scale = data.errors, 1.0  # of the first round
+        self._errors, self._shared, self._scale = data.errors, SharedErrors(), 1.0  # of the first round
         self._held: list[int] = []
         self._interrupted = False
 
@@ -309,12 +305,11 @@ class _Search:
         self._held = held
         self._point = np.where(np.isin(np.arange(self._point.size), held), starts(self._parameters), self._point)
         if len(held) == len(self._parameters):
-            self._errors, self._scale = self._effective(), self._scatter()
+            self._take_errors()
             return
         for number in range(_ROUNDS):
             before, scale = self._point, self._scale
-            self._errors = self._effective()
-            self._scale = self._scatter()
+            self._take_errors()
             self._point = self._minimised()
             if not self._needs_rounds():
                 break
@@ -353,21 +348,20 @@ class _Search:
             matrix = self._known_so_far(factor)
         elif free:
             matrix[np.ix_(free, free)] = U.covariance(self._counted(free), factor)
-        slopes = self._slopes()
-        weighted = slopes / (self._errors * self._scale)[:, None]
+        weighted = self._weighted_slopes()
         names = [parameter.name for parameter in parameters]
         low, high = bounds(parameters)
         margin = _AT_LIMIT * np.where(np.isfinite(high - low), high - low, 0.0)
         at_limit = (self._point - low < margin) | (high - self._point < margin)
-        parts = U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR) if slopes.any() else []
+        parts = U.directions(weighted, names, spreads(parameters), U.NORMAL_FACTOR) if weighted.any() else []
         found = Fit(
             parameters, data, self._point, matrix, tuple(self._held),
-            tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, slopes, parts,
-            self._scale, factor, self._limit, [], self._recorder.evaluations, self._interrupted,
+            tuple(index for index in free if at_limit[index]), self._predicted(), self._errors, self._shared,
+            self._slopes(), parts, self._scale, factor, self._limit, [], self._recorder.evaluations, self._interrupted,
         )  # fmt: skip
         if self._interrupted or found.degrees < 1:
             return found
-        clipped = np.clip(found.standardised, -self._limit, self._limit)
+        clipped = np.clip(found.independent, -self._limit, self._limit)
         tests = residual_tests(clipped, weighted[:, free], data.columns, is_error_known=data.is_error_known)
         return replace(found, tests=tests)
 
@@ -376,7 +370,7 @@ class _Search:
 
         The data may not have told anything yet: then it is that of the ranges.
         """
-        slopes = self._slopes() / (self._errors * self._scale)[:, None]
+        slopes = self._weighted_slopes()
         free = np.isin(np.arange(slopes.shape[1]), self._held, invert=True)
         information = slopes.T @ slopes / (factor if factor > 0.0 else 1.0)
         information[np.diag_indices_from(information)] += 1.0 / spreads(self._parameters) ** 2
@@ -392,14 +386,18 @@ class _Search:
             return self._recorder.last_slopes(self._point, self._data.values.size)
         return self._recorder.slopes(self._point)
 
+    def _weighted_slopes(self) -> FloatArray:
+        """Return derivatives of the independent residuals."""
+        return self._shared.apart(self._slopes() / (self._errors * self._scale)[:, None])
+
     def _weighted(self, columns: Sequence[int] | range) -> FloatArray:
         """Return derivatives over errors, with a row for every prior."""
-        return self._with_priors(self._slopes() / (self._errors * self._scale)[:, None], columns)
+        return self._with_priors(self._weighted_slopes(), columns)
 
     def _counted(self, columns: Sequence[int]) -> FloatArray:
         """Return the same with the weights of the residuals."""
         slopes = np.zeros((self._data.values.size, len(self._parameters)))
-        slopes[:, columns] = self._slopes()[:, columns] / (self._errors * self._scale)[:, None]
+        slopes[:, columns] = self._weighted_slopes()[:, columns]
         weights = U.huber_weights(self._standardised() / self._scale, self._limit)
         return self._with_priors(U.counted(slopes, weights), columns)
 
@@ -411,20 +409,20 @@ class _Search:
         return found
 
     def _standardised(self) -> FloatArray:
-        found: FloatArray = (self._data.values - self._predicted()) / self._errors
-        return found
+        return self._shared.apart((self._data.values - self._predicted()) / self._errors)
 
-    def _effective(self) -> FloatArray:
-        """Return errors that include the operating conditions'.
+    def _take_errors(self) -> None:
+        """Take errors of measured values at the present point.
 
-        They are errors of measured values.
+        They include those of the operating conditions, which values of one point share.
         """
         data = self._data
-        if self._input_slopes is None or not data.input_errors.size:
-            return data.absolute(self._predicted())
-        moved = np.asarray(self._input_slopes(self._point)) * data.input_errors
-        found: FloatArray = np.sqrt(data.absolute(self._predicted()) ** 2 + np.sum(moved**2, axis=1))
-        return found
+        self._errors, self._shared = data.absolute(self._predicted()), SharedErrors()
+        if self._input_slopes is not None and data.input_errors.size:
+            moved = np.asarray(self._input_slopes(self._point)) * data.input_errors
+            self._errors = np.sqrt(self._errors**2 + np.sum(moved**2, axis=1))
+            self._shared = SharedErrors.of(data.groups, moved, self._errors)
+        self._scale = self._scatter()
 
     def _scatter(self) -> float:
         """Return the residuals' scatter over their errors.
@@ -475,7 +473,7 @@ class _Search:
 
         def residuals(part: FloatArray) -> FloatArray:
             point = all_parameters(part)
-            own = (self._recorder.values(point) - self._data.values) / errors
+            own = self._shared.apart((self._recorder.values(point) - self._data.values) / errors)
             priors = [(point[i] - p.start) / p.spread for i, p in enumerate(self._parameters) if p.is_prior]
             found = np.concatenate([own, priors])
             cost = float(np.sum(np.abs(found)))
@@ -486,7 +484,7 @@ class _Search:
         def slopes(part: FloatArray) -> FloatArray:
             point = all_parameters(part)
             own = self._recorder.near_slopes(point, spread) if self._costly else self._recorder.slopes(point)
-            return self._with_priors(own / errors[:, None], free)
+            return self._with_priors(self._shared.apart(own / errors[:, None]), free)
 
         self._recorder.best = (math.inf, self._point)
         self._recorder.slopes(self._point)  # each round begins with computed derivatives

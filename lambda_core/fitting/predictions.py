@@ -10,6 +10,7 @@ from lambda_core.domain.log_sentences import SOLVER, gathered
 from lambda_core.fitting.discrepancy import Place, Prediction, coordinates, predict, sizes_known_before
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.problem import CaseProblem
+from lambda_core.fitting.uncertainty import huber_weights
 
 
 def discrepancy_sizes(problem: CaseProblem, found: Fit) -> dict[str, float]:
@@ -44,7 +45,7 @@ def predicted(
     everywhere = coordinates([*problem.conditions_of_entries(), *(asked or problem).conditions_of_entries()])
     count, errors = len(problem.entries), found.errors * found.scale
     # An outlier counts as little here as in the fit.
-    weights = np.minimum(1.0, found.limit / np.maximum(np.abs(found.standardised), 1e-300))
+    counted = errors / np.sqrt(huber_weights(found.standardised, found.limit))
     at = _place(problem, found.predicted, found.jacobian, everywhere[:count], sizes)
     if asked is None:
         new, there = errors, _place(problem, found.predicted, found.jacobian, everywhere[count:], sizes)
@@ -54,7 +55,8 @@ def predicted(
         own = asked.data.absolute(values) * (1.0 if asked.data.is_error_known else found.scale)
         new = np.sqrt(own**2 + asked.input_deviations(found.values) ** 2)
     measured = found.data.values
-    return there.predicted, predict(found.parameters, found.values, measured, errors / np.sqrt(weights), at, there, new)
+    prediction = predict(found.parameters, found.values, measured, counted, at, there, new, found.shared)
+    return there.predicted, prediction
 
 
 def _place(

@@ -12,7 +12,7 @@ import numpy as np
 from lambda_core.analysis.band.graded import Graded
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import LambdaError, SolverError, UsageError
-from lambda_core.fitting.least_squares import Data
+from lambda_core.fitting.data import Data
 from lambda_core.fitting.measurements import Measurements
 from lambda_core.fitting.operating_points import at_line, condition_change
 from lambda_core.fitting.parameters import Parameter
@@ -130,7 +130,7 @@ class CaseProblem:
         columns = {name: column[[e.row for e in self.entries]] for name, column in m.conditions.items()}
         inputs = [column[[e.row for e in self.entries]] for column in m.condition_errors.values()]
         stacked = np.column_stack(inputs) if inputs else np.zeros((0, 0))
-        return Data(values, errors, columns, stacked, is_known, not is_known)
+        return Data(values, errors, columns, stacked, is_known, not is_known, tuple(e.row for e in self.entries))
 
     def predict(self, values: FloatArray) -> FloatArray:
         """Return the predicted values, shape (n,)."""

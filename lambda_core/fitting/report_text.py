@@ -154,11 +154,13 @@ def _next(report: FitReport, units: UnitSystem) -> list[str]:
         return []
     where = ", ".join(f"{name} {units.sentence(value)}" for name, value in point.conditions.items())
     names = " and ".join(point.combination)
-    spans = f"of {'its range' if len(point.combination) == 1 else 'their ranges'} before the fit"
     before, after = (f"{spread:.2f}" for spread in (point.spread_before, point.spread_after))
     if after == before:
-        return [f"next point to measure: the best one, {where}, leaves the uncertainty of {names} at {after} {spans}"]
-    return [f"next point to measure: {where}; it reduces the uncertainty of {names} from {before} to {after} {spans}"]
+        return [
+            f"next point to measure: the best one, {where}, leaves the uncertainty of {names} at {after} of that before the fit"
+        ]
+    shares = f"from {before} to {after} of that before the fit"
+    return [f"next point to measure: {where}; it reduces the uncertainty of {names} {shares}"]
 
 
 def _table(rows: Sequence[Sequence[str]]) -> list[str]:

@@ -103,6 +103,7 @@ def sample(model: Model, found: Fit, count: int) -> Posterior:
     def logarithm(points: FloatArray) -> FloatArray:
         inside = np.all((points >= low) & (points <= high), axis=1)
         standardised = (predict(np.clip(points, low, high)) - found.data.values) / (found.errors * found.scale)
+        standardised = found.shared.apart(standardised.T).T
         pull = np.minimum(np.abs(standardised), found.limit)
         loss = pull * (np.abs(standardised) - 0.5 * pull)
         return np.where(inside, -share * loss.sum(axis=1), -math.inf)
@@ -128,7 +129,7 @@ def loss_share(found: Fit) -> float:
     lie within the limit, their share says little about psi'; it is then at least rms(psi)/rms(z), with which Huber's
     factor mean(psi^2)/mean(psi')^2 is that of least squares, which bounds the factor of the fit.
     """
-    residuals = found.standardised
+    residuals = found.independent
     psi = np.clip(residuals, -found.limit, found.limit)
     ratio = math.sqrt(float(np.sum(psi**2)) / max(float(np.sum(residuals**2)), 1e-300))
     return 1.0 / (found.factor * max(float(np.mean(np.abs(residuals) < found.limit)), ratio))

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 
@@ -186,24 +187,41 @@ def prediction_variance(gradients: FloatArray, matrix: FloatArray) -> FloatArray
     return found
 
 
-def leverages(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
+def leverages(basis: FloatArray) -> FloatArray:
     """Return the leverages of the points.
 
     How much each pulls the fit towards itself, 0 to 1 (diagonal of the hat matrix).
+
+    Parameters
+    ----------
+    basis : float64[:, :], shape (n, p)
+        Orthonormal, of the weighted derivatives.
     """
-    basis, _ = np.linalg.qr(jacobian * np.sqrt(weights)[:, None])
     found: FloatArray = np.minimum(np.sum(basis**2, axis=1), _LARGEST_LEVERAGE)
     return found
 
 
-def left_out_residuals(residuals: FloatArray, leverage: FloatArray) -> FloatArray:
+def left_out_residuals(residuals: FloatArray, basis: FloatArray, groups: Sequence[NDArray[np.int64]]) -> FloatArray:
     """Return the leave-one-out residuals, linearised.
 
-    Each point would have it were it left out of the fit.
+    The values of each group would have them were they all left out of the fit.
+
+    Parameters
+    ----------
+    residuals : float64[:], shape (n,)
+        Weighted.
+    basis : float64[:, :], shape (n, p)
+        Orthonormal, of the weighted derivatives.
+    groups : sequence of int64[:]
+        Values of each operating point.
 
     References
     ----------
-    Cook and Weisberg 1982, Residuals and Influence in Regression, eq. 2.2.3.
+    Cook and Weisberg 1982, Residuals and Influence in Regression, eqs. 2.2.3 (one value) and 3.6.1 (several).
     """
-    found: FloatArray = residuals / (1.0 - leverage)
+    found = residuals.copy()
+    for group in groups:
+        vectors, sizes, _ = np.linalg.svd(basis[group], full_matrices=False)
+        pull = np.minimum(sizes**2, _LARGEST_LEVERAGE)
+        found[group] += vectors @ (pull / (1.0 - pull) * (vectors.T @ residuals[group]))
     return found

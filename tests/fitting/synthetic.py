@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.fitting.least_squares import Data, Fit, fit
+from lambda_core.fitting.data import Data
+from lambda_core.fitting.least_squares import Fit, fit
 from lambda_core.fitting.parameters import Parameter
 
 TRUTH = np.array([0.04, 6.0, 1.2])

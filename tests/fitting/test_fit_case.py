@@ -17,7 +17,7 @@ from lambda_core import api
 from lambda_core.case.case_writer import case_toml
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.fitting import fit_case
-from lambda_core.fitting.least_squares import Data
+from lambda_core.fitting.data import Data
 from lambda_core.fitting.least_squares import fit as fit_values
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.operating_points import point_values
@@ -100,6 +100,18 @@ def test_the_next_point_is_a_new_one_and_helps(report: api.FitReport) -> None:
     assert report.next_point is not None
     assert set(report.next_point.conditions) == {"speed", "radial load", "oil temperature"}
     assert report.next_point.spread_after < 0.9 * report.next_point.spread_before
+
+
+def test_the_next_point_begins_with_the_errors_of_the_fit(report: api.FitReport) -> None:
+    """Compare its uncertainty with that of the fitted values.
+
+    It left out the factor by which residuals widen their errors, and was half of theirs in a poor fit.
+    """
+    assert report.next_point is not None
+    errors = [one.posterior_error * math.sqrt(12.0) / (one.high - one.low) for one in report.parameters]
+    covariance = np.array(report.posterior_correlation) * np.outer(errors, errors)
+    largest = math.sqrt(np.linalg.eigvalsh(covariance)[-1])
+    assert report.next_point.spread_before == pytest.approx(largest, rel=1e-3)
 
 
 def test_text_and_pictures_show_every_point(report: api.FitReport) -> None:
@@ -356,7 +368,7 @@ def test_a_next_point_that_tells_nothing_is_said_to(report: api.FitReport) -> No
     point = SuggestedPoint(
         conditions={"speed": "3 rpm"}, combination={"mu": 1.0}, spread_before=1.0, spread_after=0.999
     )
-    said = "the best one, speed 3 rpm, leaves the uncertainty of mu at 1.00 of its range before the fit"
+    said = "the best one, speed 3 rpm, leaves the uncertainty of mu at 1.00 of that before the fit"
     assert f"next point to measure: {said}" in report.model_copy(update={"next_point": point}).text()
 
 

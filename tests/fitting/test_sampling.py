@@ -11,7 +11,8 @@ from scipy.stats import norm
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
-from lambda_core.fitting.least_squares import Data, fit
+from lambda_core.fitting.data import Data
+from lambda_core.fitting.least_squares import fit
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.parameters import Parameter
 from lambda_core.fitting.sampling import _corners, loss_share, sample

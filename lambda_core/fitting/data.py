@@ -1,0 +1,61 @@
+"""Hold measured values with their errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+
+_SMALLEST_SHARE = 1e-3  # of the median value, which proportional errors do not go below
+
+
+@dataclass(frozen=True)
+class Data:
+    """Measured values with their errors.
+
+    Attributes
+    ----------
+    values : float64[:], shape (n,)
+        Measured values.
+    errors : float64[:], shape (n,)
+        Standard deviations; where `is_error_known` is False only their ratios count.
+    columns : mapping of str to float64[:]
+        Operating conditions, for tests of the residuals.
+    input_errors : float64[:, :], shape (n, k)
+        Standard deviations of k operating conditions; empty where they are exact.
+    is_error_known : bool
+        Whether the size of the errors is known; otherwise the scatter of the residuals gives it.
+    is_proportional : bool
+        Whether `errors` are shares of the predicted values. Shares of the measured ones would tie errors to noise.
+    points : tuple of int
+        Operating point of each value; values of one point share the errors of its conditions. Each its own if empty.
+    """
+
+    values: FloatArray
+    errors: FloatArray
+    columns: Mapping[str, FloatArray] = field(default_factory=dict)
+    input_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    is_error_known: bool = True
+    is_proportional: bool = False
+    points: tuple[int, ...] = ()
+
+    def absolute(self, predicted: FloatArray) -> FloatArray:
+        """Return the errors in the unit of the values."""
+        if not self.is_proportional:
+            return self.errors
+        size = np.abs(predicted)
+        found: FloatArray = self.errors * np.maximum(size, _SMALLEST_SHARE * float(np.median(size)))
+        return found
+
+    @property
+    def groups(self) -> list[NDArray[np.int64]]:
+        """Values of each operating point."""
+        if not self.points:
+            return list(np.arange(self.values.size)[:, None])
+        points = np.array(self.points)
+        order = np.argsort(points, kind="stable")
+        return np.split(order, np.flatnonzero(np.diff(points[order])) + 1)
