@@ -155,12 +155,10 @@ def _next(report: FitReport, units: UnitSystem) -> list[str]:
     where = ", ".join(f"{name} {units.sentence(value)}" for name, value in point.conditions.items())
     names = " and ".join(point.combination)
     before, after = (f"{spread:.2f}" for spread in (point.spread_before, point.spread_after))
+    end = f"{after} of that before the fit"
     if after == before:
-        return [
-            f"next point to measure: the best one, {where}, leaves the uncertainty of {names} at {after} of that before the fit"
-        ]
-    shares = f"from {before} to {after} of that before the fit"
-    return [f"next point to measure: {where}; it reduces the uncertainty of {names} {shares}"]
+        return [f"next point to measure: the best one, {where}, leaves the uncertainty of {names} at {end}"]
+    return [f"next point to measure: {where}; it reduces the uncertainty of {names} from {before} to {end}"]
 
 
 def _table(rows: Sequence[Sequence[str]]) -> list[str]:

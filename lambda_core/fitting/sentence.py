@@ -59,7 +59,9 @@ def _of_held(found: Fit, held: Sequence[str]) -> str:
     weak = next((d for d in reversed(found.directions) if not d.is_determined), None)
     partners = [name for name in (weak.weights if weak else {}) if name not in held]
     why = f"cannot be separated from {_list(partners)}" if partners else "has too small an effect"
-    return f"{_list(held)}, which {'each ' if len(held) > 1 else ''}{why} and keeps its start value"
+    kept = f"{_list(held)}, which {'each ' if len(held) > 1 else ''}{why} and keeps its start value"
+    this = "this value" if len(held) == 1 else "these values"
+    return f"{kept}: intervals of {_list(partners)} hold for {this} only" if partners else kept
 
 
 def _range_of(names: Sequence[str]) -> str:

@@ -338,6 +338,23 @@ def test_one_parameter_that_data_do_not_determine_has_a_sentence_of_its_own() ->
     assert sentence(found) == "The 3 measured values do not determine mu, which keeps its start value."
 
 
+def test_intervals_beside_a_held_parameter_are_said_to_hold_for_its_value_only() -> None:
+    """Name the parameter whose interval depends on the held one.
+
+    The sentence said that the data determine it.
+    """
+    x, random = np.linspace(1.0, 2.0, 6), np.random.default_rng(1)
+    ranges = [Parameter("mu", 0.1, 0.0, 0.2), Parameter("tau", 0.1, 0.0, 0.2)]
+    data = Data(20.0 * x + 0.1 * random.standard_normal(6), np.ones(6))
+    found = fit_values(lambda values: 100.0 * (values[0] + 1.02 * values[1]) * x, ranges, data)
+    (held,) = found.held
+    name, other = found.parameters[held].name, found.parameters[1 - held].name
+    assert sentence(found).endswith(
+        f"{name}, which cannot be separated from {other} and keeps its start value: "
+        f"intervals of {other} hold for this value only."
+    )
+
+
 def test_errors_of_fitted_values_are_at_most_their_ranges() -> None:
     """Count the range with the data.
 

@@ -166,11 +166,14 @@ def test_values_of_a_point_that_share_an_error_do_not_count_twice() -> None:
 
 
 def test_the_region_holds_the_truth_where_quantities_share_an_error() -> None:
-    """Draw 200 series of torque and loss with one error of temperature for both."""
+    """Draw 100 series of torque and loss.
+
+    One error of temperature moves both.
+    """
     x = np.repeat(np.arange(1.0, 13.0), 2) * np.tile([1.0, 30.0], 12)
     points = tuple(np.repeat(np.arange(12), 2).tolist())
     inside = []
-    for seed in range(200):
+    for seed in range(100):
         random = np.random.default_rng(seed)
         warm = 0.05 * np.repeat(random.standard_normal(12), 2)
         data = Data(
@@ -178,11 +181,14 @@ def test_the_region_holds_the_truth_where_quantities_share_an_error() -> None:
         )
         found = fit(lambda p: p[0] * x, [Parameter("a", 0.9, 0.1, 2.0)], data, input_slopes=lambda p: 0.05 * x[:, None])
         inside.append(found.contains(np.array([1.0])))
-    assert 0.90 <= np.mean(inside) <= 0.99
+    assert 0.88 <= np.mean(inside) <= 0.99
 
 
 def test_leave_one_out_leaves_all_values_of_a_point_out() -> None:
-    """Compare it with fits without each point, which has two values with a shared error."""
+    """Compare it with fits without each point.
+
+    A point has two values with a shared error.
+    """
     at, random = S.plan(), np.random.default_rng(2)
     true = np.repeat(S.torque(S.TRUTH, at), 2)
     points = np.repeat(np.arange(24), 2)
@@ -196,9 +202,11 @@ def test_leave_one_out_leaves_all_values_of_a_point_out() -> None:
             input_errors=np.ones((int(kept.sum()), 1)),
             points=tuple(points[kept].tolist()),
         )
-        return fit(
-            lambda p: np.repeat(S.torque(p, at), 2)[kept], S.PARAMETERS, data, input_slopes=lambda p: moved[kept], limit=math.inf
-        )  # fmt: skip
+
+        def model(p: FloatArray) -> FloatArray:
+            return np.repeat(S.torque(p, at), 2)[kept]
+
+        return fit(model, S.PARAMETERS, data, input_slopes=lambda p: moved[kept], limit=math.inf)
 
     complete = fitted(np.ones(48, bool))
     for index in (0, 10, 46):
