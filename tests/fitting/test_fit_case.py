@@ -338,7 +338,7 @@ def test_one_parameter_that_data_do_not_determine_has_a_sentence_of_its_own() ->
     assert sentence(found) == "The 3 measured values do not determine mu, which keeps its start value."
 
 
-def test_intervals_beside_a_held_parameter_are_said_to_hold_for_its_value_only() -> None:
+def test_intervals_hold_for_the_value_of_a_held_parameter() -> None:
     """Name the parameter whose interval depends on the held one.
 
     The sentence said that the data determine it.

@@ -33,6 +33,20 @@ def test_texts_of_a_comparison_keep_apart(radial_run: Result, combined_run: Resu
     no_collision(data_of(registry().view("comparison"), [radial_run, combined_run], {}))
 
 
+def test_a_legend_leaves_measured_points_and_the_band_free() -> None:
+    """Place the legend below a band with points.
+
+    It covered the band of a study that filled the picture.
+    """
+    x = np.linspace(0.0, 1.0, 9)
+    line = Series("torque", x, 0.0 * x, "line", low=x - 1.0, high=1.0 - x, band="90 % band")
+    points = Series("measured", np.repeat(x, 2), np.tile([-1.0, 1.0], 9), "points")
+    figure: Any = draw(ViewData("own", "Own", "", (Panel("", Axis("speed"), Axis("torque"), (line, points)),)))
+    figure.canvas.draw()
+    (axes,) = figure.axes
+    assert not axes.get_legend().get_window_extent().overlaps(axes.get_window_extent())
+
+
 def test_labels_of_close_marks_keep_apart() -> None:
     """Write the second label below the first.
 

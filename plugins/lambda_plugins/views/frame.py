@@ -166,7 +166,10 @@ def _write_label(axes: Any, mark: Mark, down: float) -> None:
 
 
 def _is_full(panel: Panel) -> bool:
-    return panel.shape == "plain" and any(series.kind == "line" and is_restless(series.y) for series in panel.series)
+    """Tell whether curves or bands may lie anywhere."""
+    lines = [series for series in panel.series if series.kind == "line"]
+    with_bands = any(series.low is not None for series in lines) and len(panel.series) > 1
+    return panel.shape == "plain" and (with_bands or any(is_restless(series.y) for series in lines))
 
 
 def has_outer_legend(panel: Panel) -> bool:
