@@ -49,7 +49,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.case.machine import MachineCase
     from lambda_core.case.modelling import Models
     from lambda_core.case.parts import InlineMaterial
-    from lambda_core.case.rollers import PROFILE_OPTIONS
+    from lambda_core.case.rollers import PROFILE_OPTIONS, SHARED_GEOMETRY
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow, RollerRow

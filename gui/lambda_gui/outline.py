@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, get_origin
 
-from lambda_core.api import InlineMaterial
+from lambda_core.api import SHARED_GEOMETRY, InlineMaterial
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
@@ -194,6 +194,9 @@ class _Outline:
         if table[-1] == "rollers":  # the row of the profile has a row for each of its options
             node.groups = [replace(group, names=tuple(name for name in group.names if name not in PROFILE))]
             node.in_file = [(*table, name) for name in PROFILE]
+        if table[-1] == "geometry":  # rollers have a table of their own for the rest
+            apart = tuple(name for name in group.names if name not in SHARED_GEOMETRY)
+            node.groups = [Group("", table, SHARED_GEOMETRY), Group("Balls", table, apart)]
         inner = [name for name in _IN_FILE.get(table[-1], ()) if name in table_model(self.root, table).model_fields]
         if inner:
             node.in_file = [(*table, name) for name in inner]

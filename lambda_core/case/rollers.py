@@ -20,6 +20,9 @@ PROFILE_OPTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType({
     "none": (),
 })  # fmt: skip
 
+# What a roller bearing takes of [bearing.geometry]; the rest describes balls.
+SHARED_GEOMETRY = ("bore_diameter", "outside_diameter", "width", "dynamic_rating", "static_rating")
+
 
 class InlineRollers(Section):
     """Inner geometry of a roller bearing.

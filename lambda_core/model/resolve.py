@@ -56,6 +56,7 @@ from lambda_core.model.geometry.geometry_checks import check_clearance
 from lambda_core.model.geometry.resolve_clearance import clearance_in_operation, resolve_mounting
 from lambda_core.model.geometry.resolve_designation import resolve_designation
 from lambda_core.model.geometry.resolve_geometry import resolve_geometry, with_clearance
+from lambda_core.model.geometry.roller_limits import check_roller_clearance
 from lambda_core.model.geometry.shadowed_data import tell_shadows
 from lambda_core.model.laws.interpolation import say_overshoot
 from lambda_core.model.laws.law_packages import law_called, packaged_toml
@@ -120,6 +121,10 @@ def resolve(
         model = with_rollers(
             model, case, *found, ribs, lambda role, name: law_called(registry, role, name, given=False)
         )
+        if model.rollers is not None and model.mounting is not None:
+            ledger = Ledger(place=place)
+            check_roller_clearance(model.rollers, ledger)
+            ledger.check(case.name)
         if place is str:
             check_roller_fit(case, model)
         return dataclasses.replace(model, case_toml=packaged_toml(standalone(case), registry))

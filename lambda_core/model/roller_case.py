@@ -43,7 +43,7 @@ from lambda_core.model.bodies.resolve_materials import (
 )
 from lambda_core.model.checks.oil_table import OilLaw, oil_state
 from lambda_core.model.checks.operating_limits import speed_warning
-from lambda_core.model.geometry.roller_limits import is_possible, refuse_geometry_of_balls
+from lambda_core.model.geometry.roller_limits import check_roller_clearance, is_possible, refuse_geometry_of_balls
 from lambda_core.model.geometry.roller_profile import profile_of
 from lambda_core.model.laws.law_context import effective_modulus
 from lambda_core.model.laws.roller_dielectric import dielectric_of_case
@@ -383,6 +383,7 @@ def roller_geometry(
     except ValueError as error:
         ledger.problem("bearing.rollers", str(error).replace("`", ""))
         return None
+    check_roller_clearance(bearing, ledger)
     return bearing if is_possible(bearing, ledger) else None
 
 

@@ -92,10 +92,21 @@ def held_directions(case: Case, ledger: Ledger) -> Held:
         if mode not in ("free", "locked"):
             ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
         found.append(mode == "locked" or (name.startswith("tilt") and not written))
+        if found[-1] and _begins_away(case.bodies.outer_ring, name):
+            ledger.problem(
+                f"bodies.outer_ring.{name}",
+                "must begin at zero: the inner ring of these rollers is locked along it",
+            )
     if not {"tilt_y", "tilt_z"} & ring.model_fields_set:
         ledger.assume(STRAIGHT)
     x, y, z, tilt_y, tilt_z = found
     return x, y, z, tilt_y, tilt_z
+
+
+def _begins_away(ring: RingBody, name: str) -> bool:
+    """Tell whether a motion begins away from zero."""
+    motion = getattr(getattr(ring, name), "motion", None)
+    return motion is not None and initial(time_function(motion)) != 0.0
 
 
 def _mode(ring: RingBody, name: str) -> str:

@@ -33,7 +33,7 @@ from lambda_core.model.laws.roller_laws import law_of_rollers, written_parameter
 from lambda_core.model.laws.time_functions import initial, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.roller_case import roller_geometry, roller_model, roller_title
-from lambda_core.model.roller_loads import STRAIGHT
+from lambda_core.model.roller_loads import STRAIGHT, held_directions
 
 if TYPE_CHECKING:
     from lambda_core.laws.law import Law
@@ -73,6 +73,10 @@ def rollers_of(
     if found is None and bearing.rollers is None:
         return None
     rollers = roller_geometry(case, found, catalogue, ledger)
+    if place is str:
+        held_directions(case, ledger)
+    elif not {*TILTS} & case.bodies.inner_ring.model_fields_set:
+        ledger.assume(STRAIGHT)
     if rollers is not None:
         if place is str:
             _refuse_thrust(case, rollers, ledger)
@@ -83,8 +87,6 @@ def rollers_of(
         ledger.problem(f"forces.{name}", "this bearing has no such ribs: leave it out")
     ledger.check(case.name)
     assert rollers is not None  # else a problem says why
-    if not {*TILTS} & case.bodies.inner_ring.model_fields_set:
-        ledger.assume(STRAIGHT)
     if not rollers.ribs:
         ledger.assume("rollers are guided along the shaft by the pockets of their cage: no height of a rib is known")
     return rollers, roller_title(case, found, rollers), tuple(ledger.assumptions), tuple(ledger.values)

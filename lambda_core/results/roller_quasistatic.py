@@ -21,7 +21,12 @@ from lambda_core.elements.roller.roller_friction import RollerFriction, friction
 from lambda_core.elements.roller.roller_life import lamina_life, modified_lamina_life, roller_basic_life
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
 from lambda_core.elements.roller.roller_positions import PLACES, mean_friction, over_a_pitch
-from lambda_core.elements.roller.roller_ratings import lamina_ratings, roller_equivalent_load, roller_static_load
+from lambda_core.elements.roller.roller_ratings import (
+    HIGHEST_ROLLER_PRESSURE,
+    lamina_ratings,
+    roller_equivalent_load,
+    roller_static_load,
+)
 from lambda_core.formulas.life import (
     LEAST_KAPPA,
     RADIAL_ROLLER,
@@ -36,7 +41,7 @@ from lambda_core.model.checks.operating_limits import operating_warnings, unback
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import Contact
-from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT
+from lambda_core.results.limits import ROLLER_TILT
 from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.ring_shape import ring_shape
@@ -169,7 +174,7 @@ def roller_statics(
     inner, outer = (float(load.sum(axis=1).max()) for load in loads.values())
     pressure = 1e-9 * max(_pressure(bearing, one) for one in solved.states)
     rating = roller_rating(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination)
-    told = _warnings(model, state, axial, limit)
+    told = [*_warnings(model, state, axial, limit), *_shortened(bearing, rating)]
     if moving is not None:
         limits = limits_of_rollers(moving, bearing, (radial, axial), motion.relative)
         rating = rating.model_copy(update={"limits": limits})
@@ -415,6 +420,21 @@ def _rollers(bearing: RollerBearing, state: RollerEquilibrium) -> list[RollerLoa
             max_line_load_N_mm=1e-3 * float(most[j]),
         )
         for j in range(bearing.count)
+    ]
+
+
+def _shortened(bearing: RollerBearing, rating: Rating) -> list[str]:
+    """Warn of a life far below that of ISO 281.
+
+    That standard knows neither the clearance nor a tilt. Below half of it the distribution of the load decides.
+    """
+    basic, reference = rating.basic_life_h, rating.reference_life_h
+    if bearing.is_conical or basic is None or reference is None or reference >= 0.5 * basic:
+        return []
+    share, shown = 100.0 * reference / basic, show(bearing.clearance, "small_length", 4)
+    return [
+        f"L_10rh is {share:.2g} % of L_10h: ISO 281 assumes half of the raceway loaded, evenly along the rollers; here "
+        f"clearance ({shown}), tilt or thrust load them otherwise"
     ]
 
 

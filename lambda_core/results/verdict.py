@@ -11,6 +11,7 @@ from pydantic import Field
 
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
 from lambda_core.model.checks.operating_limits import (
     LARGEST_LIFE_LOAD,
     OIL_TEMPERATURES,
@@ -21,7 +22,7 @@ from lambda_core.model.checks.operating_limits import (
     ratings,
     relative_speed,
 )
-from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, ROLLER_TILT, highest_pressure
+from lambda_core.results.limits import ROLLER_TILT, highest_pressure
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,12 +11,14 @@ from driving import LARGE, SMALL, checked, go_to, move_to, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.choice import Choice, PickList
 from lambda_gui.derived import Derived, between
+from lambda_gui.outline import outline
 from lambda_gui.profiles import ProfileRow
 from reading import cut_on
 from textual.pilot import Pilot
 from textual.widgets import DataTable
 
 from lambda_core import api
+from lambda_core.case.case import Case
 from lambda_core.discovery import local_files, manager
 from lambda_core.domain.installed import ON_VARIABLE
 
@@ -82,6 +85,18 @@ async def choose(pilot: Pilot[None], profile: str) -> None:
 
 def test_one_number_of_two_reads_as_one() -> None:
     assert [between(ends, 1) for ends in ([2.29], [2.29, 2.31], [2.0, 3.0])] == ["2.3", "2.3", "2.0..3.0"]
+
+
+def test_options_of_balls_stand_under_their_own_heading() -> None:
+    bearing = next(node for node in outline(Case) if node.key == "bearing")
+    geometry = next(node for node in bearing.children if node.key == "bearing.geometry")
+    shared, balls = geometry.groups
+    assert (shared.title, balls.title) == ("", "Balls")
+    text = CASE.replace("[lubricant]", '[bearing.geometry]\nwidth = "18 mm"\nball_count = 14\n[lubricant]')
+    told = {one.where for one in api.problems(tomllib.loads(text))}
+    assert told == {"bearing.geometry.ball_count"}  # the program takes of rollers what stands under no heading
+    assert "width" in shared.names
+    assert "ball_count" in balls.names
 
 
 async def test_a_roller_bearing_comes_from_the_catalogue(hand_written: Path) -> None:

@@ -191,7 +191,10 @@ def _bands(
         ]
         if warmer and found is not None:
             known += _temperatures(found, warmer, label, quantities)
-        bands.append(ModelBand(case=one.case, coverage=COVERAGE, bands=known, left_out=one.left_out))
+        without = [band.quantity for band in known if math.isfinite(band.value) and math.isnan(band.high)]
+        known = [band for band in known if band.quantity not in without]
+        left_out = [*one.left_out, *(f"{name} has no band: at an end of a range there is no value" for name in without)]
+        bands.append(ModelBand(case=one.case, coverage=COVERAGE, bands=known, left_out=left_out))
     return bands
 
 

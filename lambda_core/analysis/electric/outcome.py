@@ -243,7 +243,7 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
             "every discharge goes through this one"
         )
     if options.film.surroundings is None:
-        found.append("between the rings there is air outside the balls")
+        found.append("between the rings there is air outside the rolling elements")
     if options.film.seals == 0.0:
         found.append("seals are left out")
     if options.cage is None:

@@ -14,6 +14,7 @@ from lambda_core.formulas.life import EquivalentLoad
 
 MATERIAL_FACTOR = 1.1  # b_m of ISO 281: cylindrical, tapered and needle bearings with machined rings
 REDUCTION_FACTOR = 0.83  # lambda nu of ISO/TR 1281-1: edge loads and uneven load along the roller
+HIGHEST_ROLLER_PRESSURE = 4e9  # of the static rating (ISO 76) [Pa]
 _MM = 1e3
 # Ratio of the raceways' capacities: ISO/TR 1281-1 writes 1.04, ISO 16281 the same number with one digit more.
 _RATIO, _RATIO_16281 = 1.04, 1.038

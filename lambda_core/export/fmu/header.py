@@ -10,13 +10,14 @@ import numpy as np
 from lambda_core.analysis.electric import columns as circuit_columns
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.elements.ball.geometry import Geometry
+from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
 from lambda_core.export.fmu.circuit_image import NUMBERS, OF_A_BEARING
 from lambda_core.export.fmu.frozen import Frozen
 from lambda_core.export.fmu.variables import Variable, control
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.laws.jit.portable import features, known_processor
-from lambda_core.results.limits import HIGHEST_ROLLER_PRESSURE, THINNEST_FILM, Grooves, highest_pressure
+from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import ROLES

@@ -123,15 +123,18 @@ def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, st
 def check_clearance(g: Geometry, ledger: Ledger, *, has_grooves: bool = True) -> None:
     """Refuse a clearance of no real bearing.
 
-    The free contact angle, or the preload, would be impossible. Raceways of rollers have no grooves and no such angle.
+    The free contact angle, or the preload, would be impossible. Raceways of rollers have no grooves:
+    :func:`~lambda_core.model.geometry.roller_limits.check_roller_clearance` judges them.
     """
     if not math.isfinite(g.clearance):
         ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures: check their units")
         return
+    if not has_grooves:
+        return
     curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
     shown = f"{g.clearance * 1e6:.4g} um"
     most = 2.0 * curvature * (math.cos(g.resting_angle) - math.cos(LARGEST_FREE_ANGLE))
-    if has_grooves and curvature > 0.0 and g.clearance > most:
+    if curvature > 0.0 and g.clearance > most:
         ledger.problem(
             "bearing.clearance", f"{shown} lets the contacts leave the grooves (free contact angle over 45 deg)"
         )
