@@ -92,7 +92,9 @@ def choose(
     kind: Annotated[
         str | None,
         typer.Option(
-            metavar="KIND", help="Only deep groove, angular contact, four-point, double row or self-aligning."
+            metavar="KIND",
+            help="Only deep groove, angular contact, four-point, double row, self-aligning, cylindrical, needle or "
+            "tapered; or NU, N, NJ, NUP, NCF.",
         ),
     ] = None,
     maker: Annotated[str | None, typer.Option(help="Only bearings of this maker.")] = None,
@@ -109,7 +111,7 @@ def choose(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Choose ball bearings by load, speed and life.
+    """Choose bearings by load, speed and life.
 
     The smallest bearings that meet all conditions come first.
     """

@@ -43,7 +43,7 @@ _MEASURED = 'or a measured value such as "{}"'
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
 HALF_LOADED = 1.216
 # The same for line contact (Harris and Kotzalas, vol. 1, ch. 7: 1.215), and some more.
-_HALF_LOADED_LINES = 1.3
+HALF_LOADED_LINES = 1.3
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def fresh_rollers(found: RollerDesignation) -> FreshBearing:
     row, words = found.row, kind_words(found.row.kind)
     thrust, why = 0.0, "along the shaft; NU and N take none, NJ and NUP through their ribs"
     if row.contact_angle is not None:
-        thrust = _HALF_LOADED_LINES * math.tan(row.contact_angle.value)
+        thrust = HALF_LOADED_LINES * math.tan(row.contact_angle.value)
         why = "along the shaft; with less the bearing alone opens"
     return FreshBearing(
         title=f"{words[0].upper()}{words[1:]} roller bearing",

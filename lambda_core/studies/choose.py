@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
-from lambda_core.catalogue.protocol import BearingRow
+from lambda_core.catalogue.protocol import BearingRow, RollerRow
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import parse, show
 from lambda_core.elements.ball.kinds import kinds
+from lambda_core.elements.roller.roller_bearing import FAMILIES, RIBS
 from lambda_core.formulas.life import (
     basic_rating_life,
     contamination_range,
@@ -29,9 +30,12 @@ from lambda_core.formulas.ratings import fatigue_load_limit, static_factor
 from lambda_core.model.checks.operating_limits import MINIMUM_LOAD
 from lambda_core.model.fresh_case import HALF_LOADED
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.studies.roller_choice import against_load, against_thrust, is_of_kind
 
 if TYPE_CHECKING:
     from lambda_core.domain.call_types import Count
+
+    AnyRow = BearingRow | RollerRow
 
 _ALL = 1_000_000  # rows of the catalogue
 _TRIALS = 3  # equilibria that are solved at most for every bearing that is shown
@@ -49,7 +53,7 @@ class Candidate(Record):
     width_mm: float
     mass_kg: float | None
     basic_life_h: float | None = Field(description="L_10h of ISO 281")
-    life_h: float | None = Field(description="rating life that counts, from the load of every ball")
+    life_h: float | None = Field(description="rating life that counts, from the load of every ball or roller")
     life_name: str = Field(description="L_10rh, or L_nmrh where e_C is given")
     static_safety: float | None
     speed_share: float | None = Field(description="speed over the limiting speed of the catalogue")
@@ -117,10 +121,11 @@ def choose(
     limit: Count = 10,
     announce: Callable[[str], None] | None = None,
 ) -> Choice:
-    """Choose ball bearings for an operating point, smallest first.
+    """Choose bearings for an operating point, smallest first.
 
     All bearings are looked at by ISO 281 and by their limits; the smallest of those that fit are then solved with
-    the load of every ball (ISO/TS 16281), and judged as :func:`quasistatic` judges a case.
+    the load of every ball or roller (ISO/TS 16281), and judged as :func:`quasistatic` judges a case. Rollers that carry
+    thrust on one side are looked at with it on that side.
 
     Parameters
     ----------
@@ -160,8 +165,9 @@ def choose(
     from lambda_core.case.case_io import read_case
     from lambda_core.discovery.api import registry
 
-    if kind is not None and kind not in kinds():
-        raise UsageError(unknown_name("kind of bearing", kind, kinds()))
+    known = dict.fromkeys((*kinds(), *FAMILIES, *RIBS))
+    if kind is not None and kind not in known:
+        raise UsageError(unknown_name("kind of bearing", kind, known))
     if isinstance(contamination, str) and contamination.replace(".", "", 1).isdigit():
         contamination = float(contamination)
     wanted = _Wanted(radial, axial, speed, life, bore, outside, static_safety)
@@ -175,7 +181,10 @@ def choose(
     }
     read_case({"name": "choice", "bearing": {"designation": "any"}, **shared})  # mistakes, once for all candidates
     with closing(registry().catalogue()) as catalogue:
-        rows = [row for row in catalogue.bearings(_words(maker), _ALL) if kind is None or row.kind == kind]
+        rows: list[AnyRow] = [
+            row for row in catalogue.bearings(_words(maker), _ALL) if kind is None or row.kind == kind
+        ]
+        rows += [row for row in catalogue.rollers() if is_of_kind(row, kind) and _is_from(row, maker)]
         left: Counter[str] = Counter()
         fitting = []
         viscosity = _viscosity(rows, shared, announce) if contamination is not None else None
@@ -192,6 +201,10 @@ def choose(
         left["fit as well by ISO 281 and are larger"] = more
     candidates.sort(key=lambda one: (not one.met, one.outside_mm**2 * one.width_mm))
     return Choice(question=wanted.question(oil, temperature), candidates=candidates[:limit], left_out=dict(left))
+
+
+def _is_from(row: RollerRow, maker: str | None) -> bool:
+    return maker is None or row.maker.upper() == maker.upper()
 
 
 def _words(maker: str | None) -> str:
@@ -220,7 +233,7 @@ class _Wanted:
             f"static safety {self.safety:g}, {oil} at {temperature}"
         )
 
-    def against(self, row: BearingRow, viscosity: float | None, contamination: float | str | None) -> str:
+    def against(self, row: AnyRow, viscosity: float | None, contamination: float | str | None) -> str:
         """Return the objections to a bearing.
 
         They are in plural words; the text is empty where there are none.
@@ -229,10 +242,14 @@ class _Wanted:
             return "have another bore"
         if self.outside is not None and row.outside_diameter.value > self.outside:
             return "are larger outside"
-        if row.dynamic_rating is None or row.static_rating is None or row.ball_diameter is None:
-            return "have no ratings or inner geometry in the catalogue"
         if row.limiting_speed is not None and self.speed > row.limiting_speed.value:
             return "are too slow"
+        if isinstance(row, RollerRow):
+            loads, wanted = (self.radial, self.axial), (self.life, self.safety)
+            refused = against_thrust(row, *loads, self.speed)
+            return refused or against_load(row, loads, self.speed, wanted, viscosity, contamination)
+        if row.dynamic_rating is None or row.static_rating is None or row.ball_diameter is None:
+            return "have no ratings or inner geometry in the catalogue"
         return self._by_kind(row) or self._by_load(row, viscosity, contamination)
 
     def _by_kind(self, row: BearingRow) -> str:
@@ -290,17 +307,18 @@ def _si(text: str, quantity: str) -> float:
         raise UsageError(str(error)) from None
 
 
-def _volume(row: BearingRow) -> float:
+def _volume(row: AnyRow) -> float:
     return row.outside_diameter.value**2 * row.width.value
 
 
-def _case(row: BearingRow, shared: dict[str, Any]) -> dict[str, Any]:
-    return {"name": "choice", "bearing": {"designation": row.designation, "maker": row.maker}, **shared}
+def _case(row: AnyRow, shared: dict[str, Any]) -> dict[str, Any]:
+    found = {"name": "choice", "bearing": {"designation": row.designation, "maker": row.maker}, **shared}
+    if isinstance(row, RollerRow):  # mounted the way round that takes the thrust
+        found["loads"] = {**shared["loads"], "axial": shared["loads"]["axial"].lstrip("+-")}
+    return found
 
 
-def _viscosity(
-    rows: Sequence[BearingRow], shared: dict[str, Any], announce: Callable[[str], None] | None
-) -> float | None:
+def _viscosity(rows: Sequence[AnyRow], shared: dict[str, Any], announce: Callable[[str], None] | None) -> float | None:
     """Return the oil's kinematic viscosity in operation [m2/s].
 
     It comes from the solution of one bearing.
@@ -308,12 +326,14 @@ def _viscosity(
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.runs.api import quasistatic
 
-    radial = [row for row in rows if kinds()[row.kind].is_radial]
+    radial = [row for row in rows if isinstance(row, RollerRow) or kinds()[row.kind].is_radial]
     known = [row for row in radial if row.pitch_diameter is not None and row.dynamic_rating]
     if not known:
         return None
     row = max(known, key=lambda one: one.dynamic_rating.value if one.dynamic_rating else 0.0)
-    found = quasistatic(_case(row, shared), announce=announce)
+    pressed = row.contact_angle is not None and isinstance(row, RollerRow)  # tapered; the loads leave the oil as it is
+    loads = {"radial": "1 kN", "axial": "1 kN" if pressed else "0 N"}
+    found = quasistatic(_case(row, {**shared, "loads": loads}), announce=announce)
     assert isinstance(found, QuasiStatic)
     ratio = found.rating.viscosity_ratio if found.rating is not None else None
     if ratio is None or row.pitch_diameter is None:
@@ -324,7 +344,7 @@ def _viscosity(
 
 
 def _solved(
-    rows: Iterable[BearingRow], shared: dict[str, Any], limit: int, announce: Callable[[str], None] | None
+    rows: Iterable[AnyRow], shared: dict[str, Any], limit: int, announce: Callable[[str], None] | None
 ) -> list[Candidate]:
     """Solve the smallest bearings until enough meet everything."""
     found: list[Candidate] = []
@@ -335,7 +355,7 @@ def _solved(
     return found
 
 
-def _candidate(row: BearingRow, shared: dict[str, Any], announce: Callable[[str], None] | None) -> Candidate:
+def _candidate(row: AnyRow, shared: dict[str, Any], announce: Callable[[str], None] | None) -> Candidate:
     """Solve one bearing and judge it."""
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.rating import life_that_counts
@@ -345,7 +365,7 @@ def _candidate(row: BearingRow, shared: dict[str, Any], announce: Callable[[str]
     bore, outside, width = (round(1e3 * size.value, 6) for size in sizes)
     named: dict[str, Any] = {
         "designation": row.designation, "maker": row.maker, "kind": row.kind, "bore_mm": bore, "outside_mm": outside,
-        "width_mm": width, "mass_kg": row.mass.value if row.mass is not None else None,
+        "width_mm": width, "mass_kg": row.mass.value if isinstance(row, BearingRow) and row.mass is not None else None,
     }  # fmt: skip
     try:
         found = quasistatic(_case(row, shared), announce=announce)

@@ -63,3 +63,41 @@ def test_what_cannot_be_asked_is_named() -> None:
     ):
         with pytest.raises(UsageError, match=words):
             api.choose(**{**QUESTION, **changes})  # type: ignore[arg-type]
+
+
+ROLLERS = {"radial": "5 kN", "speed": "3000 rpm", "life": "10000 h"}
+
+
+def test_rollers_are_chosen_with_their_own_exponent_and_limits() -> None:
+    found = api.choose(**ROLLERS, kind="NU", limit=3)
+    nu_208 = next(one for one in found.candidates if one.designation == "NU 208")
+    alone = api.quasistatic({
+        "name": "nu",
+        "bearing": {"designation": "SKF NU 208"},
+        "lubricant": {"name": "mineral-vg68", "temperature": "70 degC"},
+        "loads": {"radial": "5 kN"},
+        "operation": {"speed": "3000 rpm"},
+    })  # fmt: skip
+    assert nu_208.basic_life_h == pytest.approx((62.0 / 5.0) ** (10 / 3) * 1e6 / (60 * 3000), rel=1e-3)
+    assert nu_208.life_h == pytest.approx(alone.rating.reference_life_h, rel=1e-3)
+    assert nu_208.friction_torque_Nmm == pytest.approx(alone.friction_torque_Nmm, rel=1e-3)
+    mixed = api.choose(**ROLLERS, limit=5)
+    assert {"N", "NU"} <= {one.kind for one in mixed.candidates}
+
+
+def test_thrust_leaves_only_rollers_that_carry_it() -> None:
+    found = api.choose(**ROLLERS, axial="1.5 kN", kind="cylindrical")
+    assert {one.designation for one in found.candidates} == {"NJ 2208", "NUP 2208"}
+    assert found.left_out["have ribs that carry less axial load"] == 3  # NJ 208: 2.2 kN by heat less 0.15 F_r (SKF)
+    assert found.left_out["have rollers that carry no axial load (NU, N, needle)"] >= 4
+    turned = api.choose(**ROLLERS, axial="-1.5 kN", kind="cylindrical")
+    assert [one.life_h for one in turned.candidates] == [one.life_h for one in found.candidates]
+
+
+def test_tapered_rollers_need_the_thrust_that_presses_them() -> None:
+    loaded = api.choose(**ROLLERS, axial="2.5 kN", kind="tapered", contamination=0.5)
+    assert loaded.candidates
+    assert all(one.met and one.life_name == "L_nmrh" for one in loaded.candidates)
+    alone = api.choose(**ROLLERS, kind="tapered")
+    assert not alone.candidates
+    assert set(alone.left_out) == {"have tapered rollers and need more axial load or a second bearing"}
