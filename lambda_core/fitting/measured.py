@@ -83,6 +83,7 @@ class ComparedSeries(Record):
     inside: int | None = Field(description="measured values inside the band")
     interval_score: float | None = Field(description="mean of the score over the measured value; small is good")
     reason: str = Field(default="", description="why the series was not computed")
+    is_fitted: bool = Field(default=False, description="whether the case was fitted to these points")
 
 
 class MeasuredComparison(Record):
@@ -104,6 +105,8 @@ class MeasuredComparison(Record):
                 continue
             lines += [f"  {_point(point)}" for point in one.points]
             lines.append(f"  {_errors(one)}")
+            if one.is_fitted:
+                lines.append("  the case was fitted to these points: they do not test it")
         return "\n".join(lines)
 
 
@@ -298,7 +301,18 @@ def _compared(one: _Loaded, band: bool) -> ComparedSeries:
         mean_absolute_error_pct=float(np.abs(errors).mean()),
         inside=inside,
         interval_score=score,
+        is_fitted=_is_fitted(one),
     )
+
+
+def _is_fitted(one: _Loaded) -> bool:
+    """Tell whether the case was fitted to the points."""
+    from lambda_core.case.case_io import toml_tables
+
+    if one.subject is None or one.measurements is None:
+        return False
+    origin = toml_tables(one.subject.case_toml, one.series.name).get("fit") or {}
+    return bool(origin.get("sha256") == one.measurements.sha256)
 
 
 def _not_computed(series: MeasuredSeries, reason: str) -> ComparedSeries:

@@ -28,6 +28,7 @@ from lambda_core.fitting.residual_tests import misfit
 from lambda_core.fitting.scores import relative
 from lambda_core.fitting.sentence import sentence
 from lambda_core.fitting.subjects import subject_of
+from lambda_core.model.checks.assumption_effects import effect
 
 CASE = "6319-cp10-1500"
 HEADER = "speed [1/min],radial load [kN],oil temperature [degC],friction torque [N mm],friction torque error [%]"
@@ -353,6 +354,17 @@ def test_intervals_hold_for_the_value_of_a_held_parameter() -> None:
         f"{name}, which cannot be separated from {other} and keeps its start value: "
         f"intervals of {other} hold for this value only."
     )
+
+
+@pytest.mark.parametrize("begin", ["", "bearings.left."])
+def test_a_fitted_parameter_stands_with_the_assumptions_of_its_law(begin: str) -> None:
+    """Group it by its path.
+
+    The word "fitted" put the loss factor with fits, under load and life.
+    """
+    said = "0.0370 ± 0.0033: fitted to 18 values of one.csv"
+    assert effect(f"{begin}parameters.elastic_hysteresis.loss_factor {said}") == "friction"
+    assert effect(f"{begin}parameters.film_thickness.factor {said}") == "film"
 
 
 def test_errors_of_fitted_values_are_at_most_their_ranges() -> None:

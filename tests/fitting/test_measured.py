@@ -117,6 +117,26 @@ def test_a_series_of_ones_own_is_compared_with_its_band(tmp_path: Path, capsys: 
     assert one["interval_score"] > 1.0
 
 
+def test_points_that_the_case_was_fitted_to_do_not_test_it(tmp_path: Path) -> None:
+    """Name a comparison with the points of a fit.
+
+    Its small errors looked like those of a prediction.
+    """
+    points = "speed [1/min],friction torque [N mm]\n500,925\n1500,1306\n3000,1564\n"
+    for name in ("own", "other"):
+        (tmp_path / f"{name}.csv").write_text(points + "2000,1400\n" * (name == "other"))
+        (tmp_path / f"{name}.toml").write_text(
+            'title = "t"\ncase = "fitted.toml"\nsource = "s"\nlicence = "l"\nhow_read = "h"\nuncertainty = "u"\n'
+        )
+    report = api.fit("6319-cp10-1500", tmp_path / "own.csv", ["loss_factor"], suggest=False)
+    api.fitted_case("6319-cp10-1500", report, tmp_path / "fitted.toml")
+    own, other = (api.compare_measured([str(tmp_path / f"{name}.toml")], band=False) for name in ("own", "other"))
+    assert own.compared[0].is_fitted
+    assert not other.compared[0].is_fitted
+    assert "the case was fitted to these points" in own.text()
+    assert "fitted" not in other.text()
+
+
 def test_an_unknown_series_is_refused() -> None:
     with pytest.raises(UsageError, match="nearest: 32216-axial"):
         api.compare_measured(["32216-axail"])

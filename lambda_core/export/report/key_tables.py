@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
+from lambda_core.results.band_text import ends
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.machine_numbers import total
 from lambda_core.results.model_band import sum_of_bands
@@ -105,11 +106,8 @@ def _band(found: Any, field: str, unit: str, name: str, units: UnitSystem) -> li
 
     The list is empty where there is none.
     """
-    ends = getattr(found, f"{field}_band", [])
-    if not ends:
-        return []
-    low, high = (units.value(value, unit) for value in ends)
-    return [(name, f"{rounded(low, 2)}..{rounded(high, 2)}", units.unit(unit))]
+    own = getattr(found, f"{field}_band", [])
+    return [(name, ends(own, unit, units, named=True), "")] if own else []
 
 
 def _every_life(found: Any) -> list[tuple[str, str, str, float | None]]:
@@ -225,10 +223,9 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
         return (head, *(rounded(value, one.digits) for value in shown), *([""] if last is None else []))
 
     def band(name: str, unit: str, label: str) -> list[tuple[str, ...]]:
-        ends = [getattr(one, f"{name}_band", []) for one in moving]
-        ends.append(sum_of_bands(ends))
-        cells = ("..".join(rounded(units.value(end, unit), 3) for end in own) for own in ends)
-        return [(f"  {label}, 90 % model band", *cells)] if any(ends) else []
+        each = [getattr(one, f"{name}_band", []) for one in moving]
+        each.append(sum_of_bands(each))
+        return [(f"  {label}, 90 % model band", *(ends(own, unit, units) for own in each))] if any(each) else []
 
     rows = [
         ("bearing", *(one.title for one in each), ""),

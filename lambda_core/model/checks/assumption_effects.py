@@ -29,6 +29,7 @@ _EFFECTS: tuple[tuple[str, str], ...] = (
 )
 _OTHER = "other"
 _NAMES = re.compile(r"^[^:(]*[^:(\s]: (?=\S)")  # of the bearings of a machine that share an assumption
+_OPTION = re.compile(r"^(bearings\.[\w-]+\.)?parameters\.")  # begins the path of a fitted parameter of a law
 # A parameter of a law: law, parameter with value, source
 _PARAMETER = re.compile(r"^(?P<law>(?:[^(]*: )?\w+ [\w-]+): (?P<value>[^,(]+)(?:, (?:default|lubricant \S+))? \(")
 _PUBLISHED, _NUMERICAL = re.compile(r"published\)$"), re.compile(r"numerical\)$")
@@ -49,6 +50,7 @@ def weight(assumption: str) -> int:
 def effect(assumption: str) -> str:
     """Return what an assumption affects most."""
     bare = _NAMES.sub("", assumption) if re.match(r"^[\w-]+(, [\w-]+)*: (?!\w+ \d)", assumption) else assumption
+    bare = _OPTION.sub("", bare)
     found = (name for text in (bare, assumption) for name, words in _EFFECTS if re.search(words, text))
     return next(found, _OTHER)
 
