@@ -80,19 +80,27 @@ def fit(
         api.check_page(report, overwrite=force)
     if draw is not None:
         check_folder(draw, made=True)
-    with talk(progress, quiet) as speaker:
-        found = api.fit(
-            case,
-            measured,
-            vary,
-            changes or (),
-            bearing=bearing,
-            predict=predict,
-            sample=sample,
-            workers=workers,
-            progress=speaker.update,
-            announce=speaker.say,
-        )
+    read = [one for one in (measured, predict) if one is not None and one.exists()]
+    for option, path in (("--out", out), ("--report", report)):
+        if path is not None and path.exists() and any(path.samefile(one) for one in read):
+            raise UsageError(f"{option} {path} is the file of measurements: choose another name")
+    try:
+        with talk(progress, quiet) as speaker:
+            found = api.fit(
+                case,
+                measured,
+                vary,
+                changes or (),
+                bearing=bearing,
+                predict=predict,
+                sample=sample,
+                workers=workers,
+                progress=speaker.update,
+                announce=speaker.say,
+            )
+    except KeyboardInterrupt:
+        typer.echo("the fit was stopped before it had solved every point once: there are no values to keep", err=True)
+        raise
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
     if out is not None:
         typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force, rows=rows)), err=True)

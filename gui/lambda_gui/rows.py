@@ -19,7 +19,7 @@ from textual.widgets import Static
 from lambda_core.api import FieldCard
 from lambda_gui.labels import label_of
 from lambda_gui.nodes import Keys
-from lambda_gui.places import Place
+from lambda_gui.places import Held, Place
 
 if TYPE_CHECKING:
     from lambda_core.api import ValueReport
@@ -259,5 +259,6 @@ class Row(Vertical):
             text.append(f"\nnow {origin}", style="not bold")
         if card.reference:
             text.append(f"\n{card.reference}", style="italic not bold")
-        text.append(f"\n{'.'.join(self.place.keys)}", style="not bold")
+        if not isinstance(self.place, Held):  # only options of a case have a path
+            text.append(f"\n{'.'.join(self.place.keys)}", style="not bold")
         return text

@@ -34,7 +34,7 @@ UNITS: dict[str, dict[str, float]] = {
     "modulus": {"GPa": 1e9, "MPa": 1e6, "Pa": 1.0},
     "rotational_speed": {"rpm": _RPM, "1/min": _RPM, "rad/s": 1.0},
     "velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "nm/s": 1e-9},
-    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3},
+    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3, "g": 9.80665},  # g: standard gravity (CGPM 1901, exact)
     "temperature": {"degC": 1.0, "K": 1.0},
     "temperature_difference": {"K": 1.0},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},

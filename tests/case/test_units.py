@@ -29,6 +29,7 @@ from lambda_core.domain.units import UNITS, parse, show
         ("20.4 1/GPa", "pressure_viscosity", 20.4e-9),
         ("1.5e-3 N·m", "moment", 1.5e-3),
         ("  -9.81   m/s² ", "acceleration", -9.81),
+        ("2 g", "acceleration", 19.6133),
     ],
 )
 def test_reads_si(text: str, quantity: str, expected: float) -> None:

@@ -224,6 +224,34 @@ def test_the_command_writes_json_and_the_case(
     assert "fit to rig.csv" in page.read_text()
 
 
+def test_an_early_ctrl_c_says_that_nothing_is_kept(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Stop in the first pass over the points.
+
+    The command said "interrupted" alone.
+    """
+
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    data, out = tmp_path / "rig.csv", tmp_path / "fitted.toml"
+    data.write_text("speed [1/min],friction torque [N mm]\n500,925\n1500,1306\n")
+    monkeypatch.setattr(CaseProblem, "predict", stopped)
+    assert main(["fit", CASE, str(data), "--vary", "loss_factor", "-q", "--out", str(out)]) == 130
+    assert "there are no values to keep" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_the_file_of_measurements_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    data = tmp_path / "rig.csv"
+    data.write_text("speed [1/min],friction torque [N mm]\n500,925\n1500,1306\n")
+    before = data.read_text()
+    assert main(["fit", CASE, str(data), "--vary", "loss_factor", "-q", "--out", str(data), "--force"]) == 2
+    assert f"--out {data} is the file of measurements" in " ".join(capsys.readouterr().err.split())
+    assert data.read_text() == before
+
+
 def test_a_mistake_in_the_file_ends_the_command_with_its_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -10,6 +10,7 @@ from driving import SMALL, checked, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.dialogs import AskText
 from lambda_gui.fit_screen import FitScreen
+from lambda_gui.rows import Row
 from reading import cut_on
 from textual.widgets import Input
 
@@ -40,6 +41,7 @@ async def test_a_parameter_is_fitted_and_the_fitted_case_saved(hand_written: Pat
         await wait_for(pilot, lambda: screen.report is not None and "chi-square" in screen_text(pilot.app))
         assert "elastic_hysteresis.loss_factor" in screen_text(pilot.app)
         assert cut_on(pilot.app) == []
+        assert "vary." not in " ".join(row.help().plain for row in screen.query(Row))  # it is no path of the case
         await pilot.press("ctrl+s")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, AskText))
         target = Path(pilot.app.screen.query_one(Input).value)

@@ -10,7 +10,7 @@ from lambda_core.results.band_text import banded
 
 
 def test_the_band_of_a_page_has_the_digits_of_the_summary() -> None:
-    """Compare its ends with those in the text of a run.
+    """Compare its ends with those of a run.
 
     A band of 122.6 to 140.5 N mm was 120..140 on the page.
     """
