@@ -8,33 +8,13 @@ from typing import TYPE_CHECKING
 
 from lambda_core.elements.ball.kinds import kinds
 from lambda_core.elements.roller.roller_bearing import kind_words
-from lambda_core.model.machine_templates import ROLLERS, MachineTemplate
+from lambda_core.model.machine_templates import ROLLERS, MachineTemplate, start_text
 
 if TYPE_CHECKING:
     from lambda_core.catalogue.designation import Designation
     from lambda_core.catalogue.protocol import BearingRow
     from lambda_core.catalogue.roller_designation import RollerDesignation
 
-_TEXT = """\
-# {kind} {designation} of {maker}{words}: change what differs on your machine.
-name = "{name}"
-description = "{designation} of {maker}{words}"
-
-[bearing]
-designation = "{designation}"
-maker = "{maker}"
-{clearance}
-[lubricant]
-{oil}
-{temperature}
-
-[loads]
-{radial}
-{axial}
-
-[operation]
-{speed}
-{tail}"""
 _NO_RATING = 10e3  # [N], where the catalogue has no rating to take a share of
 _MOST_SPEED = 0.5  # of the limiting speed that a new case starts with
 _PICK = '\nclearance_pick = "middle"'
@@ -128,7 +108,8 @@ def fresh_case(name: str, bearing: FreshBearing, given: float | None = None) -> 
     oil, load, speed = machine.about
     about = f"{share}; {load}" if given is None else load
     rpm = min(machine.speed, _MOST_SPEED * bearing.limiting_speed * 30.0 / math.pi)
-    return _TEXT.format(
+    return start_text(
+        "one-bearing",
         kind=bearing.title,
         name=name,
         designation=bearing.designation,
