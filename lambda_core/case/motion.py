@@ -178,6 +178,11 @@ class Marker(Section):
     about_y: Angle = option("0 deg", "the same about y")
     about_z: Angle = option("0 deg", "the same about z")
 
+    @property
+    def point(self) -> tuple[float, float, float]:
+        """Its place [m]."""
+        return self.x, self.y, self.z
+
 
 class BetweenBodies(Section):
     """Force element between two bodies.

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple
 
+import numpy as np
+
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.gear_forces import GearForces
@@ -96,6 +98,14 @@ class Place:
     body: Carrier
     point: tuple[float, float, float]  # where it is drawn, from the left end of the shaft's axis [m]
     axes: FloatArray  # as columns, shape (3, 3)
+
+    @property
+    def turn(self) -> FloatArray:
+        """Transformation of motions to its axes.
+
+        The matrix of shape (6, 6) leads there from the axes of the case.
+        """
+        return np.asarray(np.kron(np.eye(2), self.axes.T))
 
 
 def is_on_cage(place: Place) -> bool:

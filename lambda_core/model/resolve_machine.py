@@ -36,20 +36,17 @@ from lambda_core.formulas.gear_forces import GearForces, gear_forces
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw
 from lambda_core.model.bodies.elastic_housing import elastic_housing
 from lambda_core.model.bodies.fitting import fitting_warnings
+from lambda_core.model.bodies.loads import all_loads, loads_on_parts, refuse_far_beyond, say_idle_loads
 from lambda_core.model.bodies.locations import Places, places
 from lambda_core.model.bodies.mounting import mounted, refuse_motion
 from lambda_core.model.bodies.reduced_shaft import reduced_shaft
 from lambda_core.model.bodies.resolve_materials import body_material
 from lambda_core.model.bodies.rigid_bodies import (
-    all_loads,
     connections,
-    loads_on_parts,
-    refuse_far_beyond,
+    connections_by_laws,
     refuse_idle_dampers,
     resistance,
-    resolve_links,
     rigid_bodies,
-    say_idle_loads,
     shaft_hold,
 )
 from lambda_core.model.checking import resolve
@@ -184,7 +181,7 @@ def _shaft(
     discs = _discs(case, catalogue, ledger)
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
-    links, more = resolve_links(case, stand, registry(), ledger)
+    links, more = connections_by_laws(case, stand, registry(), ledger)
     hold, brake = shaft_hold(case, stand, ledger), resistance(case, stand, ledger)
     electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
     models = with_circuits(models, electric)

@@ -92,8 +92,7 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
             ledger.problem(f"markers.{name}.x", "is required: place along the shaft, from its left end")
         if marker.body not in carriers:
             ledger.problem(f"markers.{name}.body", unknown_name("body", marker.body, carriers))
-        point = (marker.x, marker.y, marker.z)
-        markers[name] = Place(carriers.get(marker.body, GROUND), point, _axes(marker))
+        markers[name] = Place(carriers.get(marker.body, GROUND), marker.point, _axes(marker))
     found: dict[str, Place] = {}
     for table, where, part in _placed(case):
         if part.along is not None:

@@ -1,4 +1,4 @@
-"""Resolve masses, inertias, boundary conditions and loads."""
+"""Resolve masses, inertias and boundary conditions."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lambda_core.case.case import Case
-from lambda_core.case.motion import CageBody, InnerRing, Load, OuterRing
+from lambda_core.case.motion import CageBody, InnerRing, OuterRing
 from lambda_core.catalogue.protocol import CageRow
 from lambda_core.domain.elements import BODIES, DOFS, TILTS, TRANSLATIONS, BodyName
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.laws.context import Material
 from lambda_core.model.bearing_model import Body, Cage, DofState, TimeFunction
-from lambda_core.model.laws.time_functions import added, scaled, time_function
+from lambda_core.model.bodies.loads import body_loads
+from lambda_core.model.laws.time_functions import time_function
 from lambda_core.model.ledger import Ledger
 
 LEAST_SHARE = 1e-6  # of what the geometry of a body has; with less it would follow noise
 ONE_ROW = "is for bearings of two rows; this one has one row: leave it out"  # what a cage per row cannot be for
 MOST_MASS = 1e9  # [kg] of one body; the heaviest rotors ever turned weigh 1e6 kg
-Vector = tuple[TimeFunction, TimeFunction, TimeFunction]
 
 
 @dataclass(frozen=True)
@@ -273,38 +273,6 @@ def resolve_body(name: BodyName, case: Case, inertia: Inertia) -> Body:
         dofs[dof] = DofState(state.mode, motion, getattr(state, "stiffness", 0.0), state.damping)
     force, moment = body_loads(name, case)
     return Body(inertia.mass, inertia.transverse, inertia.polar, dofs, force, moment, spec.unbalance)
-
-
-def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
-    """Return force [N] and moment [N m] on a body.
-
-    Their components are along and about x, y and z of the inertial frame.
-    """
-    loads = case.loads
-    own: Load = getattr(loads, name) or Load()
-    force = [time_function(own.force_x), time_function(own.force_y), time_function(own.force_z)]
-    moment = [time_function(own.moment_x), time_function(own.moment_y), time_function(own.moment_z)]
-    if name == "inner_ring":
-        radial = time_function(loads.radial)
-        along_y, along_z = direction(loads.radial_direction)
-        force[0] = added(force[0], time_function(loads.axial))
-        force[1] = added(force[1], scaled(radial, along_y))
-        force[2] = added(force[2], scaled(radial, along_z))
-        moment[1] = added(moment[1], time_function(loads.moment_y))
-        moment[2] = added(moment[2], time_function(loads.moment_z))
-        moment[0] = added(moment[0], time_function(case.operation.torque))
-    return (force[0], force[1], force[2]), (moment[0], moment[1], moment[2])
-
-
-def direction(azimuth: float) -> tuple[float, float]:
-    """Return cosine and sine of a direction.
-
-    Exact at whole right angles so that "down" has no sideways part.
-    """
-    quarter = azimuth / (math.pi / 2.0)
-    if abs(quarter - round(quarter)) < 1e-12:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarter) % 4]
-    return math.cos(azimuth), math.sin(azimuth)
 
 
 def check_bodies(case: Case, ledger: Ledger) -> None:

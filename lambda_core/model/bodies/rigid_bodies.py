@@ -1,29 +1,26 @@
-"""Define rigid bodies, springs and point loads, in SI."""
+"""Define rigid bodies, springs and connections, in SI."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineCase
-from lambda_core.case.machine_parts import Connection, MachineBody, PointLoad
+from lambda_core.case.machine_parts import Connection, MachineBody
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import POSE, SPIN
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.units import from_si, show
 from lambda_core.formulas.elastic.beam import NODE
-from lambda_core.formulas.elastic.body import ElasticBody
-from lambda_core.formulas.gear_forces import GearForces
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, TimeFunction
-from lambda_core.model.bodies.locations import SUPPORT, Places, carried
-from lambda_core.model.bodies.resolve_bodies import direction
+from lambda_core.model.bodies.locations import SUPPORT, Places
 from lambda_core.model.bodies.resolve_materials import body_material
-from lambda_core.model.laws.given_parameters import law_by_name
 from lambda_core.model.laws.resolve_laws import ModelSource
-from lambda_core.model.laws.time_functions import added, initial, peak, scaled, time_function
+from lambda_core.model.laws.resolve_links import by_laws
+from lambda_core.model.laws.time_functions import peak, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import (
     GROUND,
@@ -40,14 +37,10 @@ from lambda_core.model.machine_model import (
     ShaftHold,
 )
 
-FORCE_ELEMENT = "force_element"
-COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
-LOADS = (*COMPONENTS, "radial")  # what may change over time of a load at a place
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _ABOUT_X = 3  # row of a node
 _ROUNDING = 1e-9
 _FARTHEST = 0.1  # [m, rad] of a prescribed motion: seats and housings move by micrometres, milliradians
-_FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
 
 
 def rigid_bodies(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
@@ -118,7 +111,7 @@ def connections(case: MachineCase, stand: Places, ledger: Ledger) -> tuple[Machi
         matrices = []
         for kind in ("stiffness", "damping"):
             own = np.diag([getattr(getattr(given, dof), kind) for dof in _DOFS])
-            matrices.append(_along(place).T @ own @ _along(place))
+            matrices.append(place.turn.T @ own @ place.turn)
         if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
             ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
         found.append(MachineSpring(name, place, to, *matrices))
@@ -188,21 +181,17 @@ def resistance(case: MachineCase, stand: Places, ledger: Ledger) -> Resistance |
     return Resistance(stand.of[SUPPORT].point[0], damping)
 
 
-def resolve_links(
+def connections_by_laws(
     case: MachineCase, stand: Places, registry: ModelSource, ledger: Ledger
 ) -> tuple[tuple[MachineLink, ...], dict[str, dict[str, ChosenLaw]]]:
     """Return connections by laws, and the laws.
 
     The laws have the model's names.
     """
-    links, laws = [], {}
-    for name, given in case.connections.items():
-        where = f"connections.{name}"
-        if not given.is_by_law:
-            continue
-        law = law_by_name(FORCE_ELEMENT, given.law, given.parameters, where, registry, ledger)
-        if law is None or where not in stand.of:
-            continue
+
+    def ends(where: str, given: Connection) -> tuple[Place, Place] | None:
+        if where not in stand.of:
+            return None
         second, to = stand.of[where], stand.carrier(given.to)
         if second.body == GROUND:
             ledger.problem(f"{where}.at", "the ground cannot move: write it as `to`, and the moving body as `at`")
@@ -214,139 +203,11 @@ def resolve_links(
                 ledger.assume(
                     f"{where}.{end} turns with the shaft off its axis; the equilibrium has it where it is at t = 0"
                 )
-        element = f"{ELEMENT_PREFIX}{name}"
-        links.append(MachineLink(name, element, Place(to, first, np.eye(3)), second))
-        laws[element] = {FORCE_ELEMENT: law}
-    return tuple(links), laws
+        return Place(to, first, np.eye(3)), second
 
-
-def _along(place: Place) -> FloatArray:
-    """Return the motion transformation to a place.
-
-    The matrix of shape (6, 6) leads from the axes of the case to those of the place.
-    """
-    return np.asarray(np.kron(np.eye(2), place.axes.T))
-
-
-def all_loads(
-    case: MachineCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
-) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
-    """Return forces and moments at t = 0.
-
-    They act on shaft nodes and bodies. Also return those that change, with their rows.
-    """
-    size = body.mass.shape[0]
-    found: FloatArray = np.zeros(size + NODE * len(bodies))
-    varying: dict[int, list[TimeFunction]] = {}
-    for name, load in case.loads.items():
-        place = stand.of[f"loads.{name}"]
-        if place.body == GROUND or isinstance(place.body, BearingPart):
-            continue
-        if place.body == SHAFT:
-            first, arm = body.rows(place.point[0]).start, np.array([0.0, *place.point[1:]])
-        else:
-            own = bodies[place.body - 1]
-            first, arm = size + NODE * (place.body - 1), np.subtract(place.point, own.centre)
-        for i, total in enumerate(_about_centre(load, place, arm)):
-            found[first + i] += initial(total)
-            if any(term.kind != "constant" for term in total.terms):
-                varying.setdefault(first + i, []).append(total)
-    for name, forces in gears.items():
-        found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
-    return found, tuple((row, added(*functions)) for row, functions in varying.items())
-
-
-def loads_on_parts(case: MachineCase, stand: Places) -> dict[BearingPart, tuple[TimeFunction, ...]]:
-    """Return force and moment on rings and cages.
-
-    They are sums of all loads on each outer ring and cage, about its centre.
-    """
-    found: dict[BearingPart, list[TimeFunction]] = {}
-    for name, load in case.loads.items():
-        place = stand.of[f"loads.{name}"]
-        if not isinstance(place.body, BearingPart):
-            continue
-        centre = stand.of[f"bearings.{place.body.bearing}"].point
-        sofar = found.setdefault(place.body, [TimeFunction()] * NODE)
-        own = _about_centre(load, place, np.subtract(place.point, centre))
-        sofar[:] = [added(one, other) for one, other in zip(sofar, own, strict=True)]
-    return {part: tuple(functions) for part, functions in found.items()}
-
-
-def say_idle_loads(
-    loads: Mapping[BearingPart, tuple[TimeFunction, ...]],
-    bearings: Sequence[MountedBearing],
-    housing: FloatArray | None,
-    ledger: Ledger,
-) -> None:
-    """Note loads without effect on outer rings.
-
-    Nothing can move along them; cages are loaded in motion only, which is reported.
-    """
-    held = {bearing.name: bearing for bearing in bearings}
-    for part, load in loads.items():
-        bearing = held[part.bearing]
-        if part.part == "cage":
-            ledger.assume(f"{part.bearing}: loads on the cage act in motion; the equilibrium of the shaft has no cage")
-            for row, dof in zip((*PLACES, _ABOUT_X), (*POSE, SPIN), strict=True):
-                if load[row].terms and bearing.model.cage_body.dofs[dof].mode != "free":
-                    where = f"bearings.{part.bearing}.cage.{dof}"
-                    ledger.problem(where, 'holds the cage, so that its load there does nothing: write "free"')
-            continue
-        is_housed = housing is not None and bearing.carrier == GROUND
-        for row, dof in zip(PLACES, POSE, strict=True):
-            k = bearing.seating.stiffness[POSE.index(dof)]
-            if load[row].terms and math.isinf(k) and not is_housed:
-                ledger.problem(
-                    f"bearings.{part.bearing}.support.{dof}",
-                    f"holds the outer ring, so that its load along {dof} does nothing: leave the load out, or write "
-                    '"free" or a stiffness',
-                )
-
-
-def _about_centre(load: PointLoad, place: Place, arm: FloatArray) -> list[TimeFunction]:
-    """Return force and moment about a point.
-
-    The place of the load is at `arm` [m] from the point.
-    """
-    share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
-    functions = _components(load)
-    return [added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True))) for i in range(NODE)]
-
-
-def _components(load: PointLoad) -> list[TimeFunction]:
-    """Return force and moment along the axes of a load."""
-    found = [time_function(getattr(load, component)) for component in COMPONENTS]
-    radial = time_function(load.radial)
-    if radial.terms:
-        for axis, share in enumerate(direction(load.radial_direction)):
-            found[1 + axis] = added(found[1 + axis], scaled(radial, share))
-    return found
-
-
-def refuse_far_beyond(
-    case: MachineCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
-) -> None:
-    """Note gears and loads beyond all contact laws.
-
-    The check comes before balls are pressed through rings.
-    """
-    static = sum(bearing.static_rating for bearing in bearings)
-    sizes = {
-        f"gears.{name}.{'torque' if case.gears[name].power is None else 'power'}": (max(map(abs, forces.force)), "N")
-        for name, forces in gears.items()
-    }
-    for name, load in case.loads.items():
-        for component in LOADS:
-            unit = "N m" if component.startswith("moment") else "N"
-            sizes[f"loads.{name}.{component}"] = (peak(time_function(getattr(load, component))), unit)
-    for where, (size, unit) in sizes.items():
-        if not size <= _FAR_BEYOND * static:
-            ledger.problem(
-                where,
-                f"acts with {size:.3g} {unit}, more than {_FAR_BEYOND:.0f} times the {1e-3 * static:.3g} kN that all "
-                "bearings together bear at rest (C_0): is the unit right?",
-            )
+    wanted = {name: given for name, given in case.connections.items() if given.is_by_law}
+    found, laws = by_laws("connections", wanted, ends, registry, ledger)
+    return tuple(MachineLink(name, f"{ELEMENT_PREFIX}{name}", *own) for name, own in found.items()), laws
 
 
 def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray | None, ledger: Ledger) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, TypeVar
 
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.domain.errors import unknown_name
@@ -12,12 +13,16 @@ from lambda_core.model.ledger import Ledger
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.machine_parts import Connection
+    from lambda_core.case.motion import BetweenBodies
     from lambda_core.model.laws.resolve_laws import ModelSource
 
 ROLE = "force_element"
 GROUND = "ground"
 _CENTRE = (0.0, 0.0, 0.0)
 _BODIES: dict[str, BodyName] = {**{name: name for name in BODIES}, "shaft": "inner_ring"}  # that carry markers
+ByLaw = TypeVar("ByLaw", "BetweenBodies", "Connection")
+Ends = TypeVar("Ends")
 End = tuple[BodyName | None, tuple[float, float, float]]
 
 
@@ -28,25 +33,52 @@ def resolve_links(
 
     The keys are their names in the model. They are complete unless there are problems.
     """
-    links: dict[str, Link] = {}
-    laws: dict[str, dict[str, ChosenLaw]] = {}
-    for name, element in case.elements.items():
-        where = f"elements.{name}"
+
+    def ends(where: str, element: BetweenBodies) -> Link | None:
         first, second = (
             _end(case, element.first, f"{where}.first", ledger),
             _end(case, element.second, f"{where}.second", ledger),
         )
-        law = law_by_name(ROLE, element.law, element.parameters, where, registry, ledger)
-        if first is None or second is None or law is None:
-            continue
+        if first is None or second is None:
+            return None
         if second[0] is None:
             ledger.problem(f"{where}.second", "the ground cannot move: write it as `first`, the body as `second`")
-        elif first[0] == second[0]:
+            return None
+        if first[0] == second[0]:
             ledger.problem(f"{where}.second", f"both ends are on one body, {second[0]}")
-        else:
-            links[name] = Link(first[0], first[1], second[0], second[1])
+        return Link(first[0], first[1], second[0], second[1])
+
+    return by_laws("elements", case.elements, ends, registry, ledger)
+
+
+def by_laws(
+    table: str,
+    elements: Mapping[str, ByLaw],
+    ends: Callable[[str, ByLaw], Ends | None],
+    registry: ModelSource,
+    ledger: Ledger,
+) -> tuple[dict[str, Ends], dict[str, dict[str, ChosenLaw]]]:
+    """Return the ends of force elements, and their laws.
+
+    Those without ends or a law are left out; the ledger takes why.
+
+    Parameters
+    ----------
+    table : str
+        Table of the case that has the elements by name.
+    ends : callable
+        Returns the ends of an element at a path of the case.
+    """
+    found: dict[str, Ends] = {}
+    laws: dict[str, dict[str, ChosenLaw]] = {}
+    for name, element in elements.items():
+        where = f"{table}.{name}"
+        own = ends(where, element)
+        law = law_by_name(ROLE, element.law, element.parameters, where, registry, ledger)
+        if own is not None and law is not None:
+            found[name] = own
             laws[f"{ELEMENT_PREFIX}{name}"] = {ROLE: law}
-    return links, laws
+    return found, laws
 
 
 def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
@@ -63,7 +95,7 @@ def resolve_markers(case: Case, ledger: Ledger) -> dict[str, Marker]:
         for axis in ("about_x", "about_y", "about_z"):
             if getattr(marker, axis):
                 ledger.problem(f"markers.{name}.{axis}", "has no effect in the case of one bearing: leave it out")
-        found[name] = Marker(body, (marker.x, marker.y, marker.z))
+        found[name] = Marker(body, marker.point)
     return found
 
 
@@ -83,7 +115,7 @@ def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
         marker = case.markers[name]
         if marker.body not in _BODIES:
             return None  # the marker's own problem says so
-        body, place = _BODIES[marker.body], (marker.x, marker.y, marker.z)
+        body, place = _BODIES[marker.body], marker.point
     if body is None:
         ledger.problem(where, unknown_name("body or marker", name, [GROUND, *BODIES, *case.markers]))
         return None

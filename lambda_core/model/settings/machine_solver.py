@@ -8,7 +8,7 @@ from typing import Any
 
 from lambda_core.case.machine import MachineCase
 from lambda_core.domain.elements import POSE, SPIN
-from lambda_core.model.bodies.rigid_bodies import LOADS
+from lambda_core.model.bodies.loads import LOADS
 from lambda_core.model.laws.time_functions import highest_frequency, peak, time_function
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import MachineModel, MountedBearing
