@@ -70,10 +70,8 @@ class Derived(Static):
             self.update(Text("checking ...", style="dim"))
         elif check.model is None:
             self.update(self._mistakes(check))
-        elif check.alone is None:
-            self.update(self._of_a_machine(self.app.units))  # type: ignore[attr-defined]
         else:
-            self.update(self._of_a_bearing(check.alone, self.app.units))  # type: ignore[attr-defined]
+            self.update(self._numbers(check, self.app.units))  # type: ignore[attr-defined]
 
     def warnings(self) -> list[str]:
         """Return the warnings of the case.
@@ -85,19 +83,37 @@ class Derived(Static):
         solved = _warned_by(self.estimate.equilibrium) if self.estimate is not None and self.is_current else []
         return list(dict.fromkeys([*self._check.warnings, *solved]))
 
-    # -- one bearing --
+    # -- numbers --
 
-    def _of_a_bearing(self, model: BearingModel, units: UnitSystem) -> Text:
-        assert self._check is not None
-        geometry = [fact_in_units(fact, units) for fact in _geometry(model, self._check.values)]
+    def _numbers(self, check: Check, units: UnitSystem) -> Text:
+        """Write the numbers under the warnings.
+
+        With several bearings each has a line, and the numbers of the shaft follow.
+        """
         warned = list(map(units.sentence, self.warnings()))
-        found = _numbers(self.estimate) if self.estimate else ()
+        found = _of_the_case(self.estimate) if self.estimate else ()
         numbers = [fact_in_units(fact, units) for fact in found]
-        if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
-            told = self._listed(geometry, numbers)
+        if check.alone is None:
+            told = self._tabled(numbers, units, max(3, self.size.height - bool(warned)))
         else:
-            told = self._inline([] if warned else geometry[1:], numbers)  # balls or rollers stand in the tree
+            geometry = [fact_in_units(fact, units) for fact in _geometry(check.alone, check.values)]
+            if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
+                told = self._listed(geometry, numbers)
+            else:
+                told = self._inline([] if warned else geometry[1:], numbers)  # balls or rollers stand in the tree
         return Text("\n").join([*self._warned(warned, told), told])
+
+    def _tabled(self, numbers: Sequence[Fact], units: UnitSystem, room: int) -> Text:
+        """Write the bearings' table over the shaft's numbers.
+
+        It has at most `room` lines.
+        """
+        if self.estimate is None:
+            return Text(self._say or "solving ...", style="dim italic")
+        report: Any = self.estimate.equilibrium
+        table = _table(report, units, max(20, self.size.width), self._style())
+        lines = [*table, *self._inline([], numbers).split("\n")]
+        return Text("\n").join(lines if len(lines) <= room else [*lines[: room - 1], lines[-1]])
 
     def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
         """Write the warnings.
@@ -141,30 +157,6 @@ class Derived(Static):
         if self._say:
             text.append(self._say, style="dim italic")
         return text
-
-    # -- a machine --
-
-    def _of_a_machine(self, units: UnitSystem) -> Text:
-        """Return the lines of a machine.
-
-        Each bearing has a line, and the numbers of the shaft follow.
-        """
-        estimate: Any = self.estimate
-        if estimate is None:
-            return Text(self._say or "solving ...", style="dim italic")
-        width, room, warned = max(20, self.size.width), max(3, self.size.height), self.warnings()
-        lines = _table(estimate.equilibrium, units, width, self._style())
-        lines += [Text(line, style=self._style()) for line in _of_the_machine(estimate, units)]
-        state = "" if self.is_current else f"stale: {self._say or 'solving'}"
-        head = [Text(state, style="italic", no_wrap=True, overflow="ellipsis")] if state else []
-        if warned:
-            words = units.sentence(warned[0]) if len(warned) == 1 else f"{len(warned)} warnings: F8"
-            head.append(
-                Text(f"▲ {words}", style=self.app.theme_variables["warning"], overflow="ellipsis", no_wrap=True)
-            )
-        for line in head:
-            line.truncate(width, overflow="ellipsis")
-        return Text("\n").join([*head, *lines][:room])
 
     # -- mistakes --
 
@@ -242,8 +234,15 @@ def _geometry(model: BearingModel, values: Sequence[ValueReport]) -> Iterable[Fa
         yield "α free", f"{math.degrees(geometry.contact_angle):.3g}", "°"
 
 
-def _numbers(estimate: Estimate) -> Iterable[Fact]:
+def _of_the_case(estimate: Estimate) -> Iterable[Fact]:
+    """Yield the numbers of a bearing or a shaft."""
     state: Any = estimate.equilibrium
+    yield from _of_the_shaft(estimate) if hasattr(state, "deflection_um") else _of_a_bearing(state)
+    if estimate.processor_s is not None:
+        yield "run ≈", duration(estimate.processor_s), ""
+
+
+def _of_a_bearing(state: Any) -> Iterable[Fact]:
     rating = state.rating
     loaded = [contact for contact in state.contacts if contact.load_N > 0.01 * state.max_load_N]
     angles = [abs(contact.contact_angle_deg) for contact in loaded]
@@ -264,8 +263,6 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
         yield "M ≈", grouped(state.friction_torque_Nmm), "N mm"
     if rating.skf_torque_Nmm is not None:
         yield "SKF", grouped(rating.skf_torque_Nmm), "N mm"
-    if estimate.processor_s is not None:
-        yield "run ≈", duration(estimate.processor_s), ""
 
 
 def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str) -> list[Text]:
@@ -294,24 +291,21 @@ def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str
     return lines
 
 
-def _of_the_machine(answer: Estimate, units: UnitSystem) -> list[str]:
-    """Return the text about the complete shaft."""
+def _of_the_shaft(answer: Estimate) -> Iterable[Fact]:
     report: Any = answer.equilibrium
     modes = answer.modes
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
     bend, place = max(bends)
-    told = [f"bends {bend:.3g} um at {place:.4g} mm"]
+    yield "bends", f"{bend:.3g}", "um"
+    yield "at", f"{place:.4g}", "mm"
     if modes is not None and modes.critical_speeds:
         first = modes.critical_speeds[0].speed_rpm
         times = f", {first / abs(report.speed_rpm):.2g} x" if report.speed_rpm else ""
-        told.append(f"critical {grouped(float(f'{first:.4g}'))} 1/min{times}")
+        yield "critical", grouped(float(f"{first:.4g}")), f"1/min{times}"
     if report.system_life_h is not None:
-        told.append(f"all bearings {_life(report.system_life_h)} h")
-    if answer.processor_s is not None:
-        told.append(f"run ≈ {duration(answer.processor_s)}")
-    told.append(f"drive torque {report.drive_torque_Nm:.4g} N m")
-    told.append(f"friction torque {_number(report.friction_torque_Nmm)} N mm")
-    return [units.sentence(line) for line in told]
+        yield "all bearings", _life(report.system_life_h), "h"
+    yield "drive torque", f"{report.drive_torque_Nm:.4g}", "N m"
+    yield "friction torque", _number(report.friction_torque_Nmm), "N mm"
 
 
 def _life(value: float | None) -> str:

@@ -194,7 +194,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path, monkeypatch: pyte
 async def test_a_defect_of_one_bearing_and_the_number_of_warnings(work_folder: Path) -> None:
     """Show the defect of one contact of one bearing."""
     (node,) = (node for node in nodes() if node.key == "bearings.b.forces.ball_outer.surface")
-    assert node.heading == "b · Ball - outer · surface"
+    assert node.heading == "b · Outer raceway · surface"
     api.init_case("box", template="geared-shaft")
     laws = [item.name for item in api.plugins().items if item.kind == "model" and item.role == "surface"]
     async with BuilderApp("box.toml").run_test(size=LARGE) as pilot:
@@ -220,7 +220,10 @@ async def test_a_defect_of_one_bearing_and_the_number_of_warnings(work_folder: P
         screen.show_estimate(found, "")
         assert len(derived.warnings()) == before + 2
         await wait_for(pilot, lambda: f"▲ {before + 2} warnings  F8" in head(pilot))
+        await wait_for(pilot, lambda: "▲ left: far too much" in screen_text(pilot.app))  # type: ignore[arg-type]
+        await pilot.resize_terminal(*SMALL)
         await wait_for(pilot, lambda: f"▲ {before + 2} warnings: F8" in screen_text(pilot.app))  # type: ignore[arg-type]
+        assert len(str(derived.visual).splitlines()) <= derived.size.height
 
 
 @pytest.mark.full
