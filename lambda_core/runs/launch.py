@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
+from lambda_core.domain.time_limit import time_limit
 from lambda_core.domain.units import show
 from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.model.bearing_model import BearingModel
@@ -65,7 +66,8 @@ def launch(
     began = time.perf_counter()
     path = destination(model, out, overwrite)
     _check_end(model)
-    engine, provenance, attached = prepared(model, announce, band=band)
+    with time_limit(began + model.solver.max_wall):
+        engine, provenance, attached = prepared(model, announce, band=band)
     return run(engine, provenance, path, overwrite=overwrite, report=report, attached=attached, began=began)
 
 

@@ -27,7 +27,7 @@ from warm import PROGRAM
 from lambda_core import api
 from lambda_core.discovery.apart import check_apart
 from lambda_core.discovery.manager import registry
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, SolverError
 from lambda_core.results import file_format
 from lambda_core.runs import launch
 
@@ -139,9 +139,9 @@ def test_b10_the_limit_of_wall_time_includes_the_preparation(tmp_path: Path, mon
     """
     clock, late, prepared = time.perf_counter, [0.0], launch.prepared
 
-    def slowly(*arguments: Any) -> Any:
+    def slowly(*arguments: Any, **options: Any) -> Any:
         late[0] += 1000.0
-        return prepared(*arguments)
+        return prepared(*arguments, **options)
 
     monkeypatch.setattr(time, "perf_counter", lambda: clock() + late[0])
     monkeypatch.setattr(launch, "prepared", slowly)
@@ -151,6 +151,23 @@ def test_b10_the_limit_of_wall_time_includes_the_preparation(tmp_path: Path, mon
     assert result.status().wall < 900.0  # what the steps took
     assert api.resume(path, ["solver.max_wall=900 s"]).status().state == "stopped"
     assert api.resume(path).status().state == "finished"
+
+
+def test_the_limit_of_wall_time_ends_a_search_for_the_start(tmp_path: Path) -> None:
+    """Give up where cold oil leaves rollers no steady motion.
+
+    The search went on for minutes past a limit of four seconds.
+    """
+    case = {
+        "name": "cold", "bearing": {"designation": "SKF 32008"}, "loads": {"radial": "1101.28 N", "axial": "624.232 N"},
+        "lubricant": {"name": "light-machine-oil-mvi", "temperature": "-9.917 degC"},
+        "operation": {"speed": "25.4257 rpm"},
+        "models": {"film_thickness": "moes-line", "elastic_hysteresis": "none", "mixing": "contact-area"},
+        "solver": {"max_wall": "10 ms"},
+    }  # fmt: skip
+    with pytest.raises(SolverError, match=r"cold: the search for the equilibrium did not end .* \(solver\.max_wall\)"):
+        api.run(case, out=tmp_path / "r.h5")
+    assert not list(tmp_path.iterdir())
 
 
 def test_d1_samples_closer_than_the_longest_step_over_the_buffer_are_written(tmp_path: Path) -> None:

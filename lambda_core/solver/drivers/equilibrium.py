@@ -18,6 +18,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
+from lambda_core.domain.time_limit import check_time, is_late
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.laws.law import Law
@@ -47,7 +48,7 @@ _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
 # Without friction an iteration is cheap, and at low speed unloaded balls slide far along the groove.
 MAX_ITERATIONS = {False: 5000, True: 1000}
-_ITERATIONS_PER_CALL = 50  # some hundredths of a second
+_ITERATIONS_PER_CALL, _ALWAYS = 50, 200  # some hundredths of a second; however late it is
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
 # First step in pseudo-time [s]; from a state near the equilibrium; and that with which the way from there is tried
 # first, for so many iterations: above 1 s the continuation is Newton's method.
@@ -282,9 +283,7 @@ def _attempt(
 ) -> tuple[int, StaticReport]:
     """Run the continuation from `state`, in place.
 
-    It runs until it ends or has done its iterations.
-
-    `step` is the first one in pseudo-time [s].
+    It runs until it ends or has done its iterations; `step` is the first one in pseudo-time [s].
     """
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
     trust, held = np.ones(context.driven.size), context.driven
@@ -311,6 +310,8 @@ def _attempt(
     if driven is not None:
         held[:] = driven
     while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
+        if report["iterations"][0] > _ALWAYS:
+            check_time(f"{context.model.name}: the search for the equilibrium")
         status = advance(min(_ITERATIONS_PER_CALL, most - int(report["iterations"][0])))
     return status, report
 
@@ -346,7 +347,7 @@ def _with_friction(
     try:
         return found(context, state)
     except SolverError as error:
-        is_worth_more = strict and by_warmer_oil and not _limitless(context)
+        is_worth_more = strict and by_warmer_oil and not (is_late() or _limitless(context))
         near = by_viscosity_continuation(context, start, found) if is_worth_more else None
         if near is None:
             beyond = operating_warnings(context.model) if strict else []

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
+from lambda_core.domain.time_limit import is_late
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 
@@ -44,12 +45,16 @@ def by_viscosity_continuation(
         try:
             solve(_thinner(context, warmer), state)
         except SolverError:
+            if is_late():
+                raise
             continue
         for _ in range(_TRIES):
             trial, goal = state.copy(), max(left - step, 0.0)
             try:
                 report = solve(_thinner(context, goal), trial)
             except SolverError:
+                if is_late():
+                    raise
                 step *= 0.5
                 continue
             if goal == 0.0:
