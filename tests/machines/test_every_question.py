@@ -88,11 +88,14 @@ def in_motion(name: str, *more: str) -> list[str]:
 
 
 def watched(folder: Path) -> None:
-    """Check observers and events of bearings.
+    """Check observers, events and force elements.
 
-    Observers are channels: an event ends the run at its sample; the record follows its options.
+    Observers are channels: an event ends the run at its sample; the record follows its options. The brake of the shaft
+    takes c omega^2.
     """
     found = api.result(folder / "watched.h5")
+    turning = 3000.0 * np.pi / 30.0
+    assert found.summary().elements["brake"].power_W == pytest.approx(-1e-3 * turning**2, rel=1e-3)
     for one in found.bearings.values():
         assert one["time"][-1] == pytest.approx(0.35e-3)
         assert np.diff(one["time"]) == pytest.approx(5e-5, rel=1e-9)
@@ -246,9 +249,11 @@ ROWS: dict[str, list[Step]] = {
                 (["view", "box.h5", "catalogues", *LEFT, "--format", "png"], ".png")],
     "export fmu, iterate": [coupled, (["export", "fmu", "box.toml", "--processor", "native", "-q"], "box.fmu")],
     "estimate": [(["estimate", "box.toml", "--json", "-q"], "processor_s")],
-    "observers, events, depth, output": [
+    "observers, events, force elements, depth, output": [
         (in_motion("watched", "--plugin", "watcher.py", "--set", "observers.losses={}",
-                   "--set", 'events.late={action="stop"}', "--set", "output.interval=0.05 ms"), "friction"),
+                   "--set", 'events.late={action="stop"}', "--set", "output.interval=0.05 ms",
+                   "--set", 'connections.brake={at="160 mm", law="bushing", '
+                            'parameters={spin_damping="0.001 N m s/rad"}}'), "friction"),
         watched,
     ],
     "lives and catalogue torques of a run": [lives, (["show", "box.h5"], "rating life")],
