@@ -62,6 +62,11 @@ def widened(path: Path) -> Summary:
     return found.model_copy(update={"bearings": {name: WiderSummary(**dict(one))}})
 
 
+def test_the_builder_shows_the_torque_of_the_drive(run_file: Path) -> None:
+    found = api.summary(run_file).model_copy(update={"drive_torque_Nm": 1.234})
+    assert re.search(r"^drive torque +1\.234 N m$", summary_view(found, COLOURS).plain, re.MULTILINE)
+
+
 def test_a_new_number_of_a_run_is_everywhere(run_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = widened(run_file)
     assert re.search(r"^creep +12\.34 um$", found.text(), re.MULTILINE)
