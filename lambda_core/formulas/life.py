@@ -13,6 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from scipy.optimize import brentq
+
 from lambda_core.domain.errors import unknown_name
 from lambda_core.formulas.ratings import conformity_term
 
@@ -21,6 +23,7 @@ _RELATIVE_AXIAL = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 _LIMIT = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
 _AXIAL_FACTOR = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 _RADIAL_FACTOR = 0.56
+BALL_SLOPE, ROLLER_SLOPE = 10.0 / 9.0, 9.0 / 8.0  # of Weibull's distribution of lives
 
 # ISO 281:2007, table 3, angular contact ball bearings, single row. At 15 deg over f_0 F_a/C_0r, X = 0.44; above: angle
 # [deg], e, X, Y.
@@ -183,15 +186,25 @@ def static_equivalent_load(
     return max(rows * (0.5 * radial_load + axial_factor * axial_load), radial_load)
 
 
-def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
+def system_life(lives: Sequence[float], slopes: Sequence[float]) -> float:
     """Return the life of a set of bearings.
 
-    90 % of sets reach it: (sum L_i^-e)^(-1/e), in the unit of `lives`.
+    90 % of sets reach it: the L with sum (L/L_i)^e_i = 1, in the unit of `lives`; of one slope e for all
+    (sum L_i^-e)^(-1/e).
 
-    The product of their Weibull survivals; e = 10/9 for balls (Lundberg and Palmgren 1947; Harris and Kotzalas 2006).
+    The product of their Weibull survivals; slopes e are 10/9 of balls (Lundberg and Palmgren 1947; Harris and Kotzalas
+    2006) and 9/8 of rollers (Lundberg and Palmgren 1952; ISO/TR 1281-1).
     """
-    damage = sum(life**-exponent for life in lives)
-    return damage ** (-1.0 / exponent) if damage > 0.0 else math.inf
+    shortest = min(lives)
+    if shortest in (0.0, math.inf):
+        return shortest
+    if len(set(slopes)) == 1:
+        return float(sum(life ** -slopes[0] for life in lives) ** (-1.0 / slopes[0]))
+
+    def excess(share: float) -> float:
+        return math.fsum((share * shortest / life) ** slope for life, slope in zip(lives, slopes, strict=True)) - 1.0
+
+    return shortest * float(brentq(excess, 0.0, 1.0))
 
 
 def basic_rating_life(dynamic_rating: float, equivalent_load: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.formulas.life import system_life
+from lambda_core.formulas.life import BALL_SLOPE, ROLLER_SLOPE, system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.record import Record
 
@@ -72,15 +72,17 @@ def machine_numbers(result: Result, bearings: Mapping[str, BearingSummary], star
     machine, numbers = result.of_machine(), result.machine_numbers
     friction = total(one.friction_torque_Nmm for one in bearings.values())
     speed = float(result.machine["speed"])
-    lives = [one.rating.reference_life_h for one in bearings.values() if one.rating is not None]
-    known = [life for life in lives if life is not None]
+    lives = {name: one.rating.reference_life_h for name, one in bearings.items() if one.rating is not None}
+    known = {name: life for name, life in lives.items() if life is not None}
+    of_rollers = {name: result.of_bearing(name).model.get("rollers") is not None for name in known}
+    slopes = [ROLLER_SLOPE if of_rollers[name] else BALL_SLOPE for name in known]
     written = {channel.name for channel in machine.channels}
     moved = {name: _swings(machine, name, start) for name in _PLACES if name in written}
     drive = numbers["drive_torque"] + math.copysign(1.0, speed) * 1e-3 * (math.nan if friction is None else friction)
     return {
         "speed_rpm": 30.0 / math.pi * speed,
         "drive_torque_Nm": finite(drive),
-        "system_life_h": finite(system_life(known)) if known else None,
+        "system_life_h": finite(system_life([*known.values()], slopes)) if known else None,
         "orbit": [
             one.model_copy(update={"position_mm": 1e3 * float(place)})
             for place, one in moved.get("shaft_position", {}).items()

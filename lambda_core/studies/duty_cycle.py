@@ -30,6 +30,7 @@ from lambda_core.domain.files import read_text
 from lambda_core.domain.number_text import hours_alone, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import Time
+from lambda_core.elements.roller.roller_life import LIFE_EXPONENT
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
 from lambda_core.results.record import INTERFACE, Record
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 Solved = TypeVar("Solved")
 _MOST_PHASES = 1000
 YEAR = 8766.0  # [h], 365.25 days
-_EXPONENT = 3.0  # of ball bearings: L = (C/P)^3
+_BALLS = 3.0  # exponent of ball bearings: L = (C/P)^3
 
 
 class Phase(Section):
@@ -239,7 +240,8 @@ def duty(
 
     names = {name: f"{case.name}, {name}" for name in found[0].bearings}
     warned = list(dict.fromkeys(text for phase in found for text in phase.warnings))
-    return joined_bearings(cycle.name, case.name, _cycles(cycle.name, names, steps, found), warned, _ADDED)
+    sums, of_rollers = _cycles(cycle.name, names, steps, found), _with_rollers(found)
+    return joined_bearings(cycle.name, case.name, sums, of_rollers, warned, _ADDED)
 
 
 def _cycles(
@@ -249,11 +251,16 @@ def _cycles(
 
     `cases` says by the bearing's name what its sum is of.
     """
-    time, cycles = sum(step.time for step in steps), {}
+    time, cycles, of_rollers = sum(step.time for step in steps), {}, _with_rollers(found)
     for bearing, case in cases.items():
         own = [_phase(step, step.time / time, phase, bearing) for step, phase in zip(steps, found, strict=True)]
-        cycles[bearing] = summed_phases(name, case, time, own, _ADDED)
+        cycles[bearing] = summed_phases(name, case, time, own, _ADDED, of_rollers=bearing in of_rollers)
     return cycles
+
+
+def _with_rollers(found: Sequence[SolvedPhase]) -> set[str]:
+    """Return the names of bearings with rollers."""
+    return {name for name, one in found[0].bearings.items() if one.rollers is not None}
 
 
 def _phase(step: _Step, share: float, found: SolvedPhase, name: str) -> PhaseResult:
@@ -277,7 +284,13 @@ def _phase(step: _Step, share: float, found: SolvedPhase, name: str) -> PhaseRes
 
 
 def summed_phases(
-    name: str, case: str, total_time: float, alone: Sequence[PhaseResult], assumptions: Sequence[str]
+    name: str,
+    case: str,
+    total_time: float,
+    alone: Sequence[PhaseResult],
+    assumptions: Sequence[str],
+    *,
+    of_rollers: bool,
 ) -> DutyCycle:
     """Add up the phases of one bearing.
 
@@ -295,7 +308,7 @@ def summed_phases(
         phases=phases,
         basic_life_h=finite(lives["basic_life_h"]),
         reference_life_h=finite(reference),
-        mean_load_N=_mean_load(phases, mean_speed),
+        mean_load_N=_mean_load(phases, mean_speed, LIFE_EXPONENT if of_rollers else _BALLS),
         mean_speed_rpm=mean_speed,
         mean_power_loss_W=mean_loss,
         energy_loss_kJ=total([phase.energy_loss_kJ for phase in phases]),
@@ -427,16 +440,17 @@ def _damage(phase: PhaseResult, total: float) -> float | None:
     return finite(phase.share * total / phase.reference_life_h) if phase.reference_life_h else None
 
 
-def _mean_load(phases: Sequence[PhaseResult], mean_speed: float) -> float | None:
+def _mean_load(phases: Sequence[PhaseResult], mean_speed: float, exponent: float) -> float | None:
     """Return the mean load P_m.
 
-    (sum P_i^3 n_i t_i / sum n_i t_i)^(1/3) (SKF, Rolling bearings, 17000 EN, 2018: mean load).
+    (sum P_i^p n_i t_i / sum n_i t_i)^(1/p), p = 3 of balls, 10/3 of rollers (SKF, Rolling bearings, 17000 EN, 2018:
+    mean load).
     """
     turning = [phase for phase in phases if phase.speed_rpm > 0.0]
     if not turning or any(phase.equivalent_load_N is None for phase in turning):
         return None
-    weighted = sum((phase.equivalent_load_N or 0.0) ** _EXPONENT * phase.speed_rpm * phase.share for phase in turning)
-    return float((weighted / mean_speed) ** (1.0 / _EXPONENT))
+    weighted = sum((phase.equivalent_load_N or 0.0) ** exponent * phase.speed_rpm * phase.share for phase in turning)
+    return float((weighted / mean_speed) ** (1.0 / exponent))
 
 
 def _row(phase: PhaseResult, units: UnitSystem) -> tuple[str, ...]:

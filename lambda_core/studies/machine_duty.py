@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from pydantic import Field
 
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.formulas.life import system_life
+from lambda_core.formulas.life import BALL_SLOPE, ROLLER_SLOPE, system_life
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
 from lambda_core.studies.duty_cycle import YEAR, CycleSum, DutyCycle, closing_lines, duty_table
 
 SYSTEM = (
-    "life of all bearings: (sum L_i^-e)^(-1/e), e = 10/9 for balls, from L_10rh of each over the cycle "
-    "(Lundberg and Palmgren 1947; Harris and Kotzalas 2006)"
+    "life of all bearings: L with sum (L/L_i)^e = 1, e = 10/9 for balls, 9/8 for rollers, from L_10rh of each over "
+    "the cycle (Lundberg and Palmgren 1947, 1952; Harris and Kotzalas 2006)"
 )
 
 
@@ -80,19 +80,28 @@ class MachineDutyCycle(CycleSum):
 
 
 def joined_bearings(
-    name: str, case: str, bearings: dict[str, DutyCycle], warnings: list[str], assumptions: Sequence[str]
+    name: str,
+    case: str,
+    bearings: dict[str, DutyCycle],
+    of_rollers: Collection[str],
+    warnings: list[str],
+    assumptions: Sequence[str],
 ) -> MachineDutyCycle:
-    """Join the sums of all bearings of a machine."""
+    """Join the sums of all bearings of a machine.
+
+    Those in `of_rollers` have rollers.
+    """
     each = bearings.values()
-    damaging = [one for one in each if one.mean_speed_rpm > 0.0]
-    known = [one.reference_life_h for one in damaging if one.reference_life_h is not None]
+    known = {b: one.reference_life_h for b, one in bearings.items() if one.mean_speed_rpm > 0.0}
+    lives = [life for life in known.values() if life is not None]
+    slopes = [ROLLER_SLOPE if b in of_rollers else BALL_SLOPE for b, life in known.items() if life is not None]
     loss = total(one.mean_power_loss_W for one in each)
     return MachineDutyCycle(
         name=name,
         case=case,
         cycle_h=next(iter(each)).cycle_h,
         bearings=bearings,
-        system_life_h=finite(system_life(known)) if known and len(known) == len(damaging) else None,
+        system_life_h=finite(system_life(lives, slopes)) if lives and len(lives) == len(known) else None,
         mean_power_loss_W=loss,
         energy_loss_kJ=total(one.energy_loss_kJ for one in each),
         energy_loss_kWh_per_year=None if loss is None else 1e-3 * loss * YEAR,

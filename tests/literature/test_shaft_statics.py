@@ -384,10 +384,15 @@ def test_factors_of_angular_contact(angle: int, limit: float, x: float, y: float
 def test_life_of_a_system() -> None:
     """Compare life of two bearings with 2^(-0.9).
 
-    Weibull slope 10/9; a much longer life does not count.
+    Weibull slopes 10/9 of balls and 9/8 of rollers; a much longer life does not count.
     """
-    assert system_life([1000.0, 1000.0]) == pytest.approx(1000.0 * 2.0**-0.9)
-    assert system_life([1000.0, 1e9]) == pytest.approx(1000.0, rel=1e-5)
+    balls, rollers = 10.0 / 9.0, 9.0 / 8.0
+    assert system_life([1000.0, 1000.0], [balls, balls]) == pytest.approx(1000.0 * 2.0**-0.9)
+    assert system_life([1000.0, 1e9], [balls, balls]) == pytest.approx(1000.0, rel=1e-5)
+    assert system_life([1000.0, 1000.0], [rollers, rollers]) == pytest.approx(1000.0 * 2.0 ** (-8.0 / 9.0))
+    mixed = system_life([1000.0, 2000.0], [balls, rollers])
+    assert (mixed / 1000.0) ** balls + (mixed / 2000.0) ** rollers == pytest.approx(1.0)  # survivals multiply
+    assert system_life([0.0, 2000.0], [balls, rollers]) == 0.0
 
 
 def test_warm_rings_in_the_equilibrium_of_the_machine() -> None:

@@ -88,28 +88,30 @@ def test_damages_add(day: DutyCycle) -> None:
     assert day.mean_speed_rpm == pytest.approx(0.5 * first.speed_rpm + 0.25 * 3000.0)
 
 
-def phase(share: float, speed: float, load: float) -> PhaseResult:
+def phase(share: float, speed: float, load: float, exponent: float) -> PhaseResult:
     """Return a phase of a duty cycle.
 
-    Bearing with C = 10 kN by L = (C/P)^3.
+    Bearing with C = 10 kN by L = (C/P)^p.
     """
-    life = 1e6 * (10e3 / load) ** 3 / (60.0 * speed) if speed else None
+    life = 1e6 * (10e3 / load) ** exponent / (60.0 * speed) if speed else None
     return PhaseResult(
         name="", share=share, speed_rpm=speed, equivalent_load_N=load, basic_life_h=life, reference_life_h=None,
         damage=None, friction_torque_Nmm=None, power_loss_W=0.0, energy_loss_kJ=0.0, warnings=[],
     )  # fmt: skip
 
 
-def test_the_mean_load_has_the_life_of_the_sum() -> None:
+@pytest.mark.parametrize("exponent", [3.0, 10.0 / 3.0])
+def test_the_mean_load_has_the_life_of_the_sum(exponent: float) -> None:
     """Compare SKF's mean load with Miner's rule.
 
-    For L = (C/P)^3 both give one life.
+    For L = (C/P)^p, p = 3 of balls and 10/3 of rollers, both give one life.
     """
-    phases = [phase(0.3, 500.0, 4000.0), phase(0.5, 1500.0, 1000.0), phase(0.2, 0.0, 9000.0)]
+    rows = ((0.3, 500.0, 4000.0), (0.5, 1500.0, 1000.0), (0.2, 0.0, 9000.0))
+    phases = [phase(*row, exponent) for row in rows]
     speed = 0.3 * 500.0 + 0.5 * 1500.0
-    mean = _mean_load(phases, speed)
+    mean = _mean_load(phases, speed, exponent)
     assert mean is not None
-    assert _added(phases, "basic_life_h") == pytest.approx(1e6 * (10e3 / mean) ** 3 / (60.0 * speed), rel=1e-12)
+    assert _added(phases, "basic_life_h") == pytest.approx(1e6 * (10e3 / mean) ** exponent / (60.0 * speed), rel=1e-12)
 
 
 def test_mistakes_are_told_at_their_place(tmp_path: Path) -> None:

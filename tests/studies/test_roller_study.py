@@ -42,3 +42,25 @@ def test_the_bearings_of_a_shaft_add_up_to_its_torque(tmp_path: Path) -> None:
     added = row["fan.friction_torque_Nmm"] + row["belt.friction_torque_Nmm"]
     assert row["friction_torque_Nmm"] == pytest.approx(added, rel=1e-9)
     assert row["power_loss_W"] == pytest.approx(row["friction_torque_Nmm"] * 1.5e3 * 3.141592653589793 / 3e4, rel=1e-6)
+
+
+def test_a_duty_cycle_of_rollers_has_their_mean_load(tmp_path: Path) -> None:
+    """Add damages with the exponent 10/3 by hand."""
+    case = str(api.init_case("nu", bearing="SKF NU 208 ECP", path=tmp_path / "nu.toml"))
+    phases = [
+        {"name": "half", "time": "1 h", "changes": {"loads.radial": "5 kN"}},
+        {"name": "full", "time": "1 h", "changes": {"loads.radial": "10 kN"}},
+    ]
+    found = api.duty({"name": "two", "case": case, "phases": phases})
+    loads = [one.equivalent_load_N for one in found.phases]
+    mean = (0.5 * (loads[0] ** (10 / 3) + loads[1] ** (10 / 3))) ** 0.3
+    assert found.mean_load_N == pytest.approx(mean, rel=1e-9)
+    speed = found.phases[0].speed_rpm
+    assert found.basic_life_h == pytest.approx((62e3 / mean) ** (10 / 3) * 1e6 / (60 * speed), rel=1e-6)
+
+
+def test_the_life_of_a_shaft_has_the_slopes_of_balls_and_rollers() -> None:
+    found = api.quasistatic(MOTOR)
+    lives = {one.name: one.rating.reference_life_h for one in found.bearings}
+    shares = {name: found.system_life_h / life for name, life in lives.items()}
+    assert shares["fan"] ** (10 / 9) + shares["belt"] ** (9 / 8) == pytest.approx(1.0, rel=1e-6)

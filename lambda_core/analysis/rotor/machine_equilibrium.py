@@ -16,7 +16,7 @@ from lambda_core.domain.number_text import digits
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.formulas.elastic.body import internal_forces
-from lambda_core.formulas.life import system_life
+from lambda_core.formulas.life import BALL_SLOPE, ROLLER_SLOPE, system_life
 from lambda_core.model.checks.operating_limits import load_warnings, operating_warnings
 from lambda_core.model.machine_model import MachineModel, MountedBearing, Place, is_on_cage
 from lambda_core.results.answer import dataset, declared_numbers, drawn
@@ -299,7 +299,9 @@ def equilibrium_of(point: MachinePoint) -> MachineEquilibrium:
     bearings = [_bearing(mounted, one, state) for mounted, one in pairs]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
-    lives = [life for b in bearings if (life := b.rating.reference_life_h) is not None]
+    known = [b for b in bearings if b.rating.reference_life_h is not None]
+    lives = [life for b in known if (life := b.rating.reference_life_h) is not None]
+    slopes = [BALL_SLOPE if b.rollers is None else ROLLER_SLOPE for b in known]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
     return MachineEquilibrium(
@@ -313,7 +315,7 @@ def equilibrium_of(point: MachinePoint) -> MachineEquilibrium:
         },
         bodies={body.name: _moved(moves) for body, moves in zip(model.bodies, state.bodies, strict=True)},
         markers={name: _moved(_at(model, state, place)) for name, place in model.markers if not is_on_cage(place)},
-        system_life_h=finite(system_life(lives)) if lives else None,
+        system_life_h=finite(system_life(lives, slopes)) if lives else None,
         friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
         drive_torque_Nm=state.drive_torque,
         shaft_mass_kg=model.body.total_mass,
