@@ -10,6 +10,7 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.errors import CaseError
 from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
+from lambda_core.model.checks.describe import headline
 
 CASE: dict[str, Any] = {
     "name": "rollers",
@@ -79,3 +80,9 @@ def test_the_circuit_of_rollers_speaks_of_no_balls() -> None:
     told = api.electric({**CASE, "loads": {"radial": "5 kN"}}).outcome.assumptions
     assert "between the rings there is air outside the rolling elements" in told
     assert not [one for one in told if "ball" in one]
+
+
+def test_tapered_rollers_have_no_clearance_of_their_own() -> None:
+    taper = {**CASE, "bearing": {"designation": "SKF 32208"}, "loads": {"radial": "3 kN", "axial": "2 kN"}}
+    assert "clearance closed by the load" in headline(api.check(taper))[0]
+    assert "clearance 37.5 um" in headline(api.check(CASE))[0]

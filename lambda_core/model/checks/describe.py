@@ -165,10 +165,10 @@ def _machine(model: MachineModel) -> MachineReport:
     parts = {}
     for bearing in model.bearings:
         side = {1: ", takes +x", -1: ", takes -x", 0: ""}[bearing.takes]
+        play = "" if _is_tapered(bearing.model) else f"clearance {1e6 * bearing.model.geometry.clearance:.4g} um, "
         parts[bearing.name] = (
-            f"{bearing.model.title} at {1e3 * bearing.position:.6g} mm, clearance "
-            f"{1e6 * bearing.model.geometry.clearance:.4g} um, C {1e-3 * bearing.dynamic_rating:.4g} kN, "
-            f"C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
+            f"{bearing.model.title} at {1e3 * bearing.position:.6g} mm, {play}"
+            f"C {1e-3 * bearing.dynamic_rating:.4g} kN, C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
         )
     parts |= {body.name: f"body of {body.mass:.4g} kg at {1e3 * body.centre[0]:.6g} mm" for body in model.bodies}
     for name, forces in model.gears.items():
@@ -259,8 +259,17 @@ def _size(model: BearingModel) -> str:
     return f"{diameter} mm" if rollers is None else f"{diameter} x {1e3 * rollers.length:.5g} mm"
 
 
+def _is_tapered(model: BearingModel) -> bool:
+    return model.rollers is not None and model.rollers.is_conical
+
+
 def _clearance(model: BearingModel) -> str:
-    """Write the clearance in operation, and where it started from."""
+    """Write the clearance in operation, and where it started from.
+
+    Tapered rollers have none of their own: their load closes it.
+    """
+    if _is_tapered(model):
+        return "clearance closed by the load"
     angle, g = model.geometry.contact_angle, model.geometry
     free = f"contact angle {show(angle, 'angle', 3)}, " if angle else ""
     text = f"{g.kind.words(g, free)}clearance {show(model.geometry.clearance, 'small_length', 4)}"
