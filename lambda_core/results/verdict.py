@@ -91,7 +91,7 @@ class Limits(Record):
 
     speed_rpm: float = Field(description="largest relative speed of the rings")
     limiting_speed_rpm: float | None = Field(description="of the catalogue")
-    minimum_load_N: float | None = Field(description="0.01 C of ball bearings; null at rest, preloaded, of rollers")
+    minimum_load_N: float | None = Field(description="0.01 C of balls, 0.02 C of rollers; null at rest, preloaded")
     largest_load_N: float | None = Field(description="C/2 of ISO 281; null at rest")
     axial_load_N: float | None = Field(description="on ribs of cylindrical rollers; null without", default=None)
     largest_axial_load_N: float | None = Field(description="permissible constant load of these ribs", default=None)
