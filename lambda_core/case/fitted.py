@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError, model_validator
 
 from lambda_core.case.option import Section, option
+
+_ROUNDING = 1e-5  # of a correlation in a file, which has six digits
 
 
 class FittedValue(Section):
@@ -54,6 +57,13 @@ class FitOrigin(Section):
         count = len(self.parameters)
         if [len(row) for row in self.correlation] != [count] * count:
             raise ValueError(f"correlation needs {count} rows of {count} numbers: one for each of the fitted values")
+        matrix = np.array(self.correlation).reshape(count, count)
+        is_symmetric = np.allclose(matrix, matrix.T, atol=_ROUNDING) and np.allclose(np.diag(matrix), 1.0)
+        if not is_symmetric or np.linalg.eigvalsh(matrix).min(initial=0.0) < -count * _ROUNDING:
+            raise ValueError(
+                "correlation is none of any values: it needs 1 on its diagonal, equal numbers on both sides of it, "
+                "and no negative eigenvalue"
+            )
         return self
 
 

@@ -34,12 +34,12 @@ UNITS: dict[str, dict[str, float]] = {
     "modulus": {"GPa": 1e9, "MPa": 1e6, "Pa": 1.0},
     "rotational_speed": {"rpm": _RPM, "1/min": _RPM, "rad/s": 1.0},
     "velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "nm/s": 1e-9},
-    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3, "g": 9.80665},  # g: standard gravity (CGPM 1901, exact)
     "temperature": {"degC": 1.0, "K": 1.0},
     "temperature_difference": {"K": 1.0},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
     "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
     "mass": {"kg": 1.0, "g": 1e-3},
+    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3, "g": 9.80665},  # g: standard gravity (CGPM 1901, exact)
     "inertia": {"kg m2": 1.0, "kg mm2": 1e-6},
     "angle": {"deg": math.pi / 180.0, "rad": 1.0, "mrad": 1e-3},
     "stiffness": {"N/m": 1.0, "N/um": 1e6, "N/mm": 1e3, "kN/mm": 1e6},

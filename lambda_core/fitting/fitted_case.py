@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from lambda_core.fitting.report import FitReport, FittedPoint
 
     C = TypeVar("C", bound=Written)
+
+_OF_A_FIT = re.compile(r": (fitted|best before an interrupted fit) to \d+ values of ")
 
 
 def write_fitted(
@@ -75,7 +78,9 @@ def with_fit(case: C, report: FitReport, *, rows: bool = False) -> C:
         shown = f"{compact(parameter.value, parameter.standard_error)} {parameter.unit}".rstrip()
         how = "best before an interrupted fit" if report.is_interrupted else "fitted"
         sentences.append(f"{parameter.path} {shown}: {how} to {len(report.points)} values of {report.file}")
-    changes["assumptions"] = [*case.assumptions, *sentences]
+    fitted = tuple(f"{parameter.path} " for parameter in report.parameters)  # now by this fit, not by an earlier one
+    earlier = [text for text in case.assumptions if not (text.startswith(fitted) and _OF_A_FIT.search(text))]
+    changes["assumptions"] = [*earlier, *sentences]
     changes["fit"] = {
         "file": report.file,
         "sha256": report.sha256,

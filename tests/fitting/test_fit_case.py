@@ -24,9 +24,7 @@ from lambda_core.fitting.operating_points import point_values
 from lambda_core.fitting.parameters import Parameter
 from lambda_core.fitting.problem import CaseProblem
 from lambda_core.fitting.report import SuggestedPoint
-from lambda_core.fitting.residual_tests import misfit
 from lambda_core.fitting.scores import relative
-from lambda_core.fitting.sentence import sentence
 from lambda_core.fitting.subjects import subject_of
 from lambda_core.model.checks.assumption_effects import effect
 
@@ -136,6 +134,43 @@ def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_pat
     assert "ISO VG 100 mineral oil" in path.read_text()  # comments stay
     with pytest.raises(UsageError, match="exists"):
         api.fitted_case(CASE, report, path)
+
+
+def test_a_value_that_was_changed_after_the_fit_is_named(report: api.FitReport, tmp_path: Path) -> None:
+    """Say that the band has the error of another value."""
+    path = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
+    said = "elastic_hysteresis.loss_factor is 0.03 in the case and"
+    fitted = api.model_band(path, quantities=["friction torque"])
+    changed = api.model_band(path, ["parameters.elastic_hysteresis.loss_factor=0.03"], quantities=["friction torque"])
+    assert not any("in the fit" in text for text in fitted.left_out)
+    assert [text for text in changed.left_out if text.startswith(said)]
+
+
+def test_a_second_fit_replaces_what_the_first_said(report: api.FitReport, tmp_path: Path) -> None:
+    """Keep one assumption of each fitted parameter.
+
+    A case that was fitted again had both values.
+    """
+    first = api.fitted_case(CASE, report, tmp_path / "first.toml")
+    other = report.model_copy(update={"file": "other.csv", "parameters": report.parameters[:1]})
+    other = other.model_copy(update={"posterior_correlation": [[1.0]]})
+    case = api.case(api.fitted_case(first, other, tmp_path / "second.toml"))
+    about = [text for text in case.assumptions if " values of " in text]
+    assert len(about) == len(report.parameters)
+    assert ["other.csv" in text for text in about if report.parameters[0].path in text] == [True]
+
+
+@pytest.mark.parametrize("correlation", ["[[1.0, 2.0], [2.0, 1.0]]", "[[1.0, 0.5], [0.1, 1.0]]", "[[0.5, 0], [0, 1]]"])
+def test_a_correlation_that_cannot_be_is_refused(correlation: str, tmp_path: Path) -> None:
+    value = 'value = 0.03\nstandard_error = 0.001\npath = "parameters.{}"\n'
+    rows = "".join(f"[[fit.parameters]]\n{value.format(name)}" for name in ("a.a", "b.b"))
+    path = tmp_path / "fitted.toml"
+    path.write_text(
+        f'{case_toml(api.case(CASE))}\n[fit]\nfile = "a.csv"\nsha256 = "0"\ndate = "2026-01-01"\ncount = 9\n'
+        f"correlation = {correlation}\n{rows}"
+    )
+    with pytest.raises(CaseError, match="no negative eigenvalue"):
+        api.case(path)
 
 
 def test_measured_values_are_stored_on_request_alone(report: api.FitReport, tmp_path: Path) -> None:
@@ -324,64 +359,6 @@ def test_an_early_interruption_keeps_values_with_the_errors_of_their_ranges(
     assert "best before an interrupted fit to" in case.read_text(encoding="utf-8")
     assert api.case(case).fit.complete is False  # type: ignore[union-attr]
     api.quasistatic(case, band=True)
-
-
-def test_residuals_far_beyond_their_errors_are_told() -> None:
-    """Tell a misfit of most points, not one outlier."""
-    one = np.array([0.3, -0.5, 0.8, 12.0, -0.2, 0.6])
-    assert misfit(one, 1) == 0.0
-    assert misfit(np.array([0.5, -1.2, 0.9, 1.4]), 1) == 0.0
-    assert misfit(np.array([-21.0, 7.9, 11.0, 9.0]), 1) == pytest.approx(10.0 / 0.6745 * math.sqrt(4 / 3), rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("slopes", "said"),
-    [
-        ((1e-3, 1e-3), "determine none of the parameters mu and tau"),
-        ((100.0, 100.0), "determine mu and tau"),
-        ((100.0, 25.0), "determine mu; they narrow the range of tau"),
-        ((100.0, 12.0), "determine mu; they do not narrow the range of tau: its 95 % interval covers it"),
-        ((12.0, 12.0), "do not narrow the ranges of mu and tau: their 95 % intervals cover them"),
-        ((100.0, 0.1), "determine mu; they do not determine tau, which has too small an effect and keeps its "
-            "start value"),
-    ],
-)  # fmt: skip
-def test_the_interval_of_a_parameter_decides_what_the_data_determine(slopes: tuple[float, float], said: str) -> None:
-    """Compare 95 % intervals with ranges.
-
-    The sentence named parameters whose intervals covered their ranges.
-    """
-    jacobian = np.kron(np.eye(2), np.ones((3, 1))) * np.array(slopes)
-    ranges = [Parameter("mu", 0.1, 0.0, 0.2), Parameter("tau", 0.1, 0.0, 0.2)]
-    found = fit_values(lambda values: jacobian @ values, ranges, Data(jacobian @ np.full(2, 0.1), np.ones(6)))
-    assert sentence(found) == f"The 6 measured values {said}."
-
-
-def test_one_parameter_that_data_do_not_determine_has_a_sentence_of_its_own() -> None:
-    """Say what the data do not determine.
-
-    It was "none of the parameters" of one.
-    """
-    data = Data(np.array([10.0, 10.1, 9.9]), np.ones(3))
-    found = fit_values(lambda values: 10.0 + 1e-3 * np.repeat(values, 3), [Parameter("mu", 0.1, 0.0, 0.2)], data)
-    assert sentence(found) == "The 3 measured values do not determine mu, which keeps its start value."
-
-
-def test_intervals_hold_for_the_value_of_a_held_parameter() -> None:
-    """Name the parameter whose interval depends on the held one.
-
-    The sentence said that the data determine it.
-    """
-    x, random = np.linspace(1.0, 2.0, 6), np.random.default_rng(1)
-    ranges = [Parameter("mu", 0.1, 0.0, 0.2), Parameter("tau", 0.1, 0.0, 0.2)]
-    data = Data(20.0 * x + 0.1 * random.standard_normal(6), np.ones(6))
-    found = fit_values(lambda values: 100.0 * (values[0] + 1.02 * values[1]) * x, ranges, data)
-    (held,) = found.held
-    name, other = found.parameters[held].name, found.parameters[1 - held].name
-    assert sentence(found).endswith(
-        f"{name}, which cannot be separated from {other} and keeps its start value: "
-        f"intervals of {other} hold for this value only."
-    )
 
 
 @pytest.mark.parametrize("begin", ["", "bearings.left."])

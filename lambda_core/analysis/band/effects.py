@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from lambda_core.case.fitted import FitOrigin, FittedValue
 
 _MOST_LOST = 2  # changes without an equilibrium; each takes a second or two, and a band without them says little
+_SAME = 1e-6  # of a fitted value, which a case has to ten digits
 SEEN_STEPS = (0.5, 0.5e-6)  # of the temperature at the inlets [K] and of the clearance [m], for slopes
 
 
@@ -240,6 +241,12 @@ class Effects:
                     model = with_value(model, entry, number, resolver)
             return self._logarithms(model, near=not options)
 
+        self.left_out += [
+            f"{entry.short} is {_text(entry.value, row.unit)} in the case and {_text(row.value, row.unit)} in the fit: "
+            "the band takes the error of the fit"
+            for entry, row in zip(graded, rows, strict=True)
+            if not math.isclose(entry.value, row.value, rel_tol=_SAME)
+        ]
         follow = np.zeros((len(rows), len(rows)))
         if held.any():
             follow[:, held] = matrix[:, held] @ np.linalg.inv(matrix[np.ix_(held, held)])
@@ -347,6 +354,10 @@ def range_effect(graded: Graded, ends: Callable[[], Sequence[FloatArray]], left_
         left_out.append(f"{graded.short} is left out: {_first(error)}")
         return
     yield Effect(graded.short, graded.source, alternatives, is_range=True)
+
+
+def _text(value: float, unit: str) -> str:
+    return f"{value:.4g} {unit}".rstrip()
 
 
 def _first(error: Exception) -> str:

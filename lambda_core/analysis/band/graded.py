@@ -219,7 +219,11 @@ def named(model: BearingModel, path: str, unit: str) -> Graded:
 
     It may have no range; an unknown path raises a UsageError.
     """
-    return replace(_named(model, path)[0], scale=Scale(unit))
+    found = _named(model, path)[0]
+    both = (name for name, units in UNITS.items() if {found.scale.unit, unit} <= units.keys())
+    quantity = next(both, "") if found.scale.unit != unit else ""
+    value = from_si(found.si(found.value), quantity, unit) if quantity else found.value
+    return replace(found, value=value, scale=Scale(unit))
 
 
 def _named(model: BearingModel, name: str) -> tuple[Graded, bool]:
