@@ -111,7 +111,7 @@ class LoadTrace(Trace):
 
     def draw(self, history: Sequence[Progress]) -> None:
         """Draw."""
-        self.clear("element loads on the inner ring now [N]")
+        self.clear("loads on the inner ring now [N]")
         loads = list(history[-1].inner_loads_N)
         if not loads:
             return

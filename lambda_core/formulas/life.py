@@ -13,8 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from scipy.optimize import brentq
-
 from lambda_core.domain.errors import unknown_name
 from lambda_core.formulas.ratings import conformity_term
 
@@ -203,6 +201,8 @@ def system_life(lives: Sequence[float], slopes: Sequence[float]) -> float:
 
     def excess(share: float) -> float:
         return math.fsum((share * shortest / life) ** slope for life, slope in zip(lives, slopes, strict=True)) - 1.0
+
+    from scipy.optimize import brentq  # few commands need it, and it takes a fifth of a second
 
     return shortest * float(brentq(excess, 0.0, 1.0))
 

@@ -90,7 +90,7 @@ def fresh_helper() -> None:
 @pytest.fixture
 def warm_program(monkeypatch: pytest.MonkeyPatch, warm: Warm) -> None:
     """Let runs and studies begin with everything imported."""
-    monkeypatch.setattr(runs, "_PROGRAM", (warm.ready().python, "-P", "-m", "lambda_cli"))
+    monkeypatch.setattr(runs, "_PROGRAM", (warm.ready().python, "-P", "-m", "lambda_cli.queued"))
 
 
 @pytest.fixture
