@@ -90,7 +90,9 @@ def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns:
     """
     if not outcome.good:
         return outcome, "failed"
-    if outcome.verdict in ("refused", "usage"):
+    if outcome.verdict == "usage":  # a damaged result ends so, too
+        return outcome.but("misuse", "a command without a mistake was refused"), "failed"
+    if outcome.verdict == "refused":
         reason = "" if "not a known" in outcome.said else _reason_that_holds(made)  # that is no case, but a bad draw
         return (outcome, f"refused: {reason}") if reason else (outcome.but("unfounded", "no reason found"), "failed")
     if outcome.open_s > WALL + OVER:
