@@ -78,7 +78,7 @@ def test_the_quasi_static_contact_is_flats_of_slices_and_the_gaps_at_their_sides
     xi = np.maximum(x / half.max(), 1.0)
     gap = film + half.max() ** 2 / (2.0 * radius) * (xi * np.sqrt(xi**2 - 1.0) - np.arccosh(xi))
     sides = 2.0 * oil * model.bearing.effective_length * float(np.trapezoid(1.0 / gap, x))
-    first = next(one for one in still.contacts if (one.ball, one.ring) == (1, "inner"))
+    first = next(one for one in still.contacts if (one.element, one.ring) == (1, "inner"))
     assert first.capacitance_pF == pytest.approx(1e12 * (flats + sides), rel=1e-4)
 
 

@@ -127,9 +127,10 @@ def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path:
     file = site.program("plugins", "show", str(tmp_path / "own.py"))
     assert file.code == 0, file.err
     assert file.out.startswith("force_element/own-spring   own.py")
-    observer = site.program("plugins", "show", "sliding-wear")
-    assert observer.out.startswith("observer/sliding-wear   sliding-wear")
-    assert "reference" in observer.out
+    parts = site.program("plugins", "show", "sliding-wear").out
+    assert "observer/sliding-wear   sliding-wear" in parts
+    assert "view/sliding-wear   sliding-wear" in parts
+    assert "reference" in parts
 
 
 @pytest.mark.full

@@ -274,7 +274,7 @@ def test_ctrl_c_while_the_program_starts_ends_in_one_line(
     It printed the traceback of the import, or of the thread that waits for signals.
     """
 
-    def interrupted() -> int:
+    def interrupted(*_: object) -> int:
         raise KeyboardInterrupt
 
     class Interrupted:
