@@ -282,7 +282,7 @@ def _bearing_cells(row: AnyBearing) -> list[Text]:
 
     s = bearing_summary(row)
     design, grade = "", "not known"
-    mark = "≈ " if s["geometry_status"] in ESTIMATED else ""
+    mark = "≈" if s["geometry_status"] in ESTIMATED else ""
     if "roller_count" in s:
         design = f"{mark}{s['roller_count']} x {s['roller_diameter_mm']:g}"
     elif s["ball_count"] is not None:
@@ -290,7 +290,8 @@ def _bearing_cells(row: AnyBearing) -> list[Text]:
     if design:
         grade = f"{s['geometry_grade']} {s['geometry_status']}"
     own = "" if row.layer == "core" else f" ({'own' if row.layer == 'user' else 'plugin'})"
-    numbers = ("" if s[name] is None else f"{s[name]:g}" for name in ("bore_mm", "outside_mm", "width_mm"))
+    # inch sizes have more digits than a narrow screen has room
+    numbers = ("" if s[name] is None else f"{s[name]:.4g}" for name in ("bore_mm", "outside_mm", "width_mm"))
     ratings = ("" if s[name] is None else f"{s[name]:g}" for name in ("C_kN", "C0_kN"))
     cells = [Text(row.designation, style="bold"), Text(row.maker)]
     cells += [Text(number, justify="right") for number in (*numbers, *ratings, design)]

@@ -88,7 +88,7 @@ async def test_estimated_geometry_is_marked(hand_written: Path) -> None:
         await write(pilot, "6208 skf")
         await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
         shown = screen_text(pilot.app)
-        assert "≈ 9 x 12.303" in shown
+        assert "≈9 x 12.303" in shown
         assert "B derived" in shown
         assert "designs that fit the ratings" in shown
         await pilot.press("pagedown")
