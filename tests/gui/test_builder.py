@@ -335,7 +335,8 @@ async def test_an_unknown_option_of_a_file_can_be_taken_out(hand_written: Path) 
 
 @pytest.mark.clock
 async def test_checking_takes_less_than_30_ms_and_typing_does_not_wait_for_it(hand_written: Path) -> None:
-    draft, checker = api.draft(hand_written), Checker()
+    draft = api.draft(hand_written)
+    checker = Checker(draft.root)
     checker.check(draft.tables, draft.folder)
     taken = []
     for _ in range(10):
