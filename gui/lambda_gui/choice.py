@@ -167,6 +167,12 @@ class Choice(Widget, can_focus=True):
         if callable(self._source):
             self._known = None
 
+    def show_value(self, value: str) -> None:
+        """Show a value among the entries of now."""
+        self.forget()
+        self.value = value
+        self.refresh()
+
     def render(self) -> Text:
         """Draw the present entry and an arrow."""
         known = {entry.value: entry.shown or entry.label for entry in self.entries}

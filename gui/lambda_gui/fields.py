@@ -116,10 +116,7 @@ class ChoiceRow(Row):
 
     def show(self) -> None:
         """Show what is written."""
-        choice = self.query_one(Choice)
-        choice.forget()
-        choice.value = text_of(self.place.get())
-        choice.refresh()
+        self.query_one(Choice).show_value(text_of(self.place.get()))
         self.mark()
 
     def on_choice_changed(self, event: Choice.Changed) -> None:

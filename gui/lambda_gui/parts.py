@@ -141,10 +141,7 @@ class MaterialRow(Branch):
 
     def show(self) -> None:
         """Show the name."""
-        choice = self.query_one(Choice)
-        choice.forget()
-        choice.value = self._chosen()
-        choice.refresh()
+        self.query_one(Choice).show_value(self._chosen())
         super().show()
 
     def twigs(self) -> Iterator[Widget]:

@@ -65,10 +65,7 @@ class ProfileRow(Branch):
 
     def show(self) -> None:
         """Show the choice."""
-        choice = self.query_one(Choice)
-        choice.forget()
-        choice.value = text_of(self.place.get())
-        choice.refresh()
+        self.query_one(Choice).show_value(text_of(self.place.get()))
         super().show()
 
     def twigs(self) -> Iterator[Widget]:

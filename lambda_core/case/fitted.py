@@ -61,7 +61,7 @@ class FitOrigin(Section):
         is_symmetric = np.allclose(matrix, matrix.T, atol=_ROUNDING) and np.allclose(np.diag(matrix), 1.0)
         if not is_symmetric or np.linalg.eigvalsh(matrix).min(initial=0.0) < -count * _ROUNDING:
             raise ValueError(
-                "correlation is none of any values: it needs 1 on its diagonal, equal numbers on both sides of it, "
+                "correlation is no correlation matrix: it needs 1 on its diagonal, equal numbers on both sides of it, "
                 "and no negative eigenvalue"
             )
         return self
