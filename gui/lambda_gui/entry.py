@@ -117,6 +117,18 @@ class Entry(Input):
         self._card = card
         self._names = names
         self._held: list[events.Key] | None = None  # keys since Enter, until the keyboard has moved on
+        self.heard = ""  # the last text that its row has taken
+
+    def show_value(self, text: str) -> None:
+        """Show a text of the row.
+
+        Not while what was typed is on its way to the row: older text would take its place, and move the cursor.
+        """
+        if self.has_focus and self.value != self.heard:
+            return
+        with self.prevent(Input.Changed):
+            self.value = text
+        self.heard = text
 
     def take(self, card: FieldCard) -> None:
         """Take the units of another card."""

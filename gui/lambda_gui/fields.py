@@ -57,8 +57,7 @@ class TextRow(Row):
         entry = self.query_one(Entry)
         value = self.place.get()
         if value_of(entry.value, self.card) != value:
-            with self.prevent(Input.Changed):
-                entry.value = text_of(value)
+            entry.show_value(text_of(value))
         entry.placeholder = self.placeholder()
         self.mark()
 
@@ -73,6 +72,7 @@ class TextRow(Row):
     def on_input_changed(self, event: Input.Changed) -> None:
         """Write what was typed."""
         event.stop()
+        self.query_one(Entry).heard = event.value
         value = value_of(event.value, self.card)
         if value != self.place.get():
             self.write(value)

@@ -94,8 +94,7 @@ class SignalRow(Branch):
         if kind == "value":
             value = self.place.get()
             if value_of(entry.value, self._plain) != value:
-                with self.prevent(Input.Changed):
-                    entry.value = text_of(value)
+                entry.show_value(text_of(value))
             entry.placeholder = "required" if self.card.required else self.card.default or "none"
         super().show()
 
@@ -166,6 +165,7 @@ class SignalRow(Branch):
     def on_input_changed(self, event: Input.Changed) -> None:
         """Write the value."""
         event.stop()
+        self.query_one(Entry).heard = event.value
         value = value_of(event.value, self._plain)
         if self._kind() == "value" and value != self.place.get():
             self.write(value)

@@ -15,8 +15,10 @@ from lambda_gui.builder import BuilderScreen
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.checking import Check, Checker
 from lambda_gui.duty_screen import DutyScreen
+from lambda_gui.entry import Entry
 from lambda_gui.forms import NodeForm
 from lambda_gui.helper import Helper
+from lambda_gui.rows import Row
 from lambda_gui.study_screen import StudyScreen
 
 
@@ -212,3 +214,23 @@ async def test_a_check_that_comes_back_while_the_screen_goes(
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
     assert came_back
+
+
+async def test_typed_text_is_not_replaced_by_an_older_one(hand_written: Path) -> None:
+    """Show a row while a letter is on its way.
+
+    The older text took its place and left the cursor before it: "N/um" became "N/mu".
+    """
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "loads.radial")
+        entry = pilot.app.focused
+        assert isinstance(entry, Entry)
+        row = next(one for one in entry.ancestors if isinstance(one, Row))
+        entry.value = "7 k"
+        row.show()
+        assert entry.value == "7 k"
+        await wait_for(pilot, lambda: builder(pilot).draft.get("loads", "radial") == "7 kN")
+        row.place.put("8 kN")
+        row.show()
+        assert entry.value == "8 kN"
