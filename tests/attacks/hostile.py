@@ -31,6 +31,8 @@ _WORDS = (
 _SIMPLE: tuple[Any, ...] = (None, True, [], {}, [[]], [1, "2"], {"kind": "ramp"}, {"kind": "sum", "terms": []})
 # Commands that compute, and how often: runs take longest.
 _COMPUTING = ("quasistatic",) * 15 + ("run",) * 4 + ("compare",)
+_BANDED = ("quasistatic", "run")  # commands with a model band, which costs more than all else
+_BAND = 0.2  # share of them that compute it
 _LIMITS = ("gt", "ge", "lt", "le", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum")
 _RIGHT = 0.88  # share of hostile values of the right kind
 _WILD = 0.4  # share of those that lie anywhere between the largest and the smallest exponents
@@ -316,8 +318,14 @@ def attack(seed: int, folder: Path) -> tuple[list[str], bool]:
         (folder / "case.toml").write_text(damaged(toml(case(pick)), pick), encoding="utf-8", errors="surrogateescape")
         chosen = "check" if pick.random() < 0.03 else pick.choice(_COMPUTING)
         more = ["--out", "out.h5"] if chosen == "run" else []
-        return [chosen, "case.toml", *more, *pick.choice([[], ["--json"]])], chosen != "check"
+        more += pick.choice([[], ["--json"]])
+        return [chosen, "case.toml", *more, *without_band(pick, chosen)], chosen != "check"
     if kind < 0.945:
         (folder / "study.toml").write_text(damaged(toml(study(pick)), pick), encoding="utf-8", errors="surrogateescape")
         return ["study", "run", "study.toml", "--workers", "1"], True
     return command(pick), False
+
+
+def without_band(pick: random.Random, command: str) -> list[str]:
+    """Return the option that skips the model band, mostly."""
+    return ["--band", "none"] if command in _BANDED and pick.random() > _BAND else []

@@ -133,7 +133,8 @@ def hostile(seed: int, number: int, folder: Path) -> Said:
 def _machine(pick: random.Random, machine: dict[str, Any], folder: Path) -> tuple[str, ...]:
     text = of_one.damaged(toml(changed(machine, pick)), pick)
     (folder / "case.toml").write_text(text, encoding="utf-8", errors="surrogateescape")
-    return pick.choice(_COMMANDS)
+    chosen = pick.choice(_COMMANDS)
+    return (*chosen, *of_one.without_band(pick, chosen[0]))
 
 
 def _cycle(pick: random.Random, machine: dict[str, Any], folder: Path) -> tuple[str, ...]:
