@@ -246,7 +246,7 @@ def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
         for name, ends in origin.band.fields().items():
             filled(group, name, np.array(ends))
     _sentences(group, "assumptions", model.assumptions)
-    _sentences(group, "warnings", operating_warnings(model, on_shaft=bool(origin.headline)))
+    _sentences(group, "warnings", [*origin.warnings, *operating_warnings(model, on_shaft=bool(origin.headline))])
     _table(group, "values", _VALUE_COLUMNS, origin.values())
     _table(group, "laws", _LAW_COLUMNS, origin.laws())
     if model.observers:

@@ -63,6 +63,7 @@ class BearingOrigin:
     rating: Rating | None = None  # what standards and catalogues say of the equilibrium that it starts from
     headline: str = ""  # of a bearing in a machine: under the load that it carries there; otherwise that of its model
     band: ModelBand | None = None  # of the equilibrium, where it was asked for
+    warnings: tuple[str, ...] = ()  # of the start, besides limits that case or state pass
 
     def laws(self) -> list[dict[str, str]]:
         """Return one row per law.
@@ -154,9 +155,16 @@ class Provenance:
     machine: MachineOrigin | None = None
 
     @classmethod
-    def alone(cls, model: BearingModel, kernel_keys: Mapping[str, str], rating: Rating | None = None) -> Provenance:
+    def alone(
+        cls,
+        model: BearingModel,
+        kernel_keys: Mapping[str, str],
+        rating: Rating | None = None,
+        warnings: tuple[str, ...] = (),
+    ) -> Provenance:
         """Return that of a run of one bearing."""
-        return cls(model.name, model.title, model.case_toml, {ALONE: BearingOrigin(model, kernel_keys, rating)})
+        origin = BearingOrigin(model, kernel_keys, rating, warnings=warnings)
+        return cls(model.name, model.title, model.case_toml, {ALONE: origin})
 
     @property
     def models(self) -> list[BearingModel]:

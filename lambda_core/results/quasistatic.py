@@ -335,7 +335,8 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
     if model.rollers is None:
         grooves = Grooves.of(dataclasses.asdict(model.geometry))
         edges = shoulders(grooves, load, channels["contact_angle"], channels["semi_axis_a"])
-    per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
+    steady = speed > 0.0 and found.converged  # friction follows from a steady motion of the elements
+    per_speed = {name: power / speed if steady else math.nan for name, power in losses.items()}
     pressure = float(channels["max_pressure"].max())
     if speed == 0.0:  # the laws are evaluated in slow motion, which rolls up a film that a bearing at rest has not
         channels |= {name: np.full_like(load, np.nan) for name in ("film_central", "film_parameter")}
@@ -352,7 +353,7 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
         "rating": rating,
         "friction_torque_Nmm": finite(1e3 * sum(per_speed.values())),
         "friction_breakdown_Nmm": merged_cage(per_speed),
-        "power_loss_W": finite(float(found.losses.sum())) if speed > 0.0 else None,
+        "power_loss_W": finite(float(found.losses.sum())) if steady else None,
         "orbit_speed_ratio": finite(_ratio(found)),
         "film_um": span(1e6 * channels["film_central"][carrying]),
         "film_parameter": films,
@@ -361,8 +362,18 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
         "ring_shapes": _ring_shapes(found),
         "shoulders": edges,
         "contacts": contacts,
-        "warnings": [*operating_warnings(model), *warnings(pressure, edges, tilt, model.geometry.kind.name)],
+        "warnings": [
+            *operating_warnings(model),
+            *warnings(pressure, edges, tilt, model.geometry.kind.name),
+            *unsteady_warnings(found),
+        ],
     }
+
+
+def unsteady_warnings(found: Equilibrium) -> list[str]:
+    """Warn where friction has no equilibrium."""
+    elements = found.context.model.elements
+    return [] if found.converged else [f"the {elements} have no steady motion at this load: no friction torque"]
 
 
 def _angles(contacts: Sequence[Contact], largest: float) -> list[float]:

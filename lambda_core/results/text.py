@@ -243,7 +243,8 @@ def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
     The list is empty at rest.
     """
     if found.friction_torque_Nmm is None:
-        return [line("friction torque", "none: nothing turns")]
+        turns = found.orbit_speed_ratio is not None
+        return [line("friction torque", "unknown: no steady motion was found" if turns else "none: nothing turns")]
     own = found.rollers
     shares = "" if own is None else f"raceways {_percent(own.raceway_share)}, ribs {_percent(own.rib_share)}"
     loss = [headed(found, "power_loss_W", units)] if found.power_loss_W is not None else []

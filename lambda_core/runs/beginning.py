@@ -81,11 +81,11 @@ class BegunBearing(Begun):
     point: AlonePoint
 
     def __init__(self, model: BearingModel, announce: Announce, *, guides_cages: bool) -> None:
-        found = start = solve(model, announce=announce)
+        found = start = solve(model, announce=announce, strict=False)
         moving = model
         if guides_cages:
             moving = with_locked_cage(model, found)
-            start = solve(moving, announce=announce)
+            start = solve(moving, announce=announce, strict=False)
         self.point, self.motion = AlonePoint(model, announce, found=found), bearing_start(start, moving)
 
     def sentence(self) -> str:
@@ -100,7 +100,16 @@ class BegunBearing(Begun):
     def provenance(self, engine: MotionEngine) -> Provenance:
         """Return the fixed part of a result from here."""
         keys = engine.context.kernels.keys()
-        return Provenance.alone(self.point.model, keys, self.point.answer.rating)
+        rating, told = self.point.answer.rating, rolling_warnings(self.point.found)
+        return Provenance.alone(self.point.model, keys, rating, told)
+
+
+def rolling_warnings(found: Equilibrium) -> tuple[str, ...]:
+    """Warn where no steady motion is found to begin with."""
+    if found.converged:
+        return ()
+    elements = found.context.model.elements
+    return (f"no steady motion of the {elements} was found at t = 0: they begin in pure rolling, without cage slip",)
 
 
 def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:

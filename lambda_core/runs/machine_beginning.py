@@ -10,7 +10,7 @@ from lambda_core.domain.number_text import counted
 from lambda_core.model.checks.describe import headline, machine_headline
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.results.provenance import BearingOrigin, MachineOrigin, Provenance, machine_data
-from lambda_core.runs.beginning import Announce, Begun
+from lambda_core.runs.beginning import Announce, Begun, rolling_warnings
 from lambda_core.solver.drivers.dynamics import MotionEngine
 from lambda_core.solver.drivers.machine_motion import machine_start
 
@@ -41,7 +41,8 @@ class BegunMachine(Begun):
         bearings = {}
         for one, moving in zip(self.point.bearings.values(), engine.bearings, strict=True):
             keys, own = moving.context.kernels.keys(), headline(one.alone)
-            bearings[one.name] = BearingOrigin(one.model, keys, one.rating, "\n".join(own))
+            told = rolling_warnings(one.equilibrium)
+            bearings[one.name] = BearingOrigin(one.model, keys, one.rating, "\n".join(own), warnings=told)
         title, *_ = lines = machine_headline(model)
         origin = MachineOrigin(
             headline="\n".join(lines),

@@ -25,7 +25,14 @@ from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.limits import warnings
 from lambda_core.results.model_band import ModelBand, sum_of_bands
 from lambda_core.results.quantity import FLOATING, quantity, same_as
-from lambda_core.results.quasistatic import BearingStatics, QuasiStatic, StaticAnswer, bearing_statics, play_of
+from lambda_core.results.quasistatic import (
+    BearingStatics,
+    QuasiStatic,
+    StaticAnswer,
+    bearing_statics,
+    play_of,
+    unsteady_warnings,
+)
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.results.summary import Summary
@@ -374,9 +381,6 @@ def _of_balls(bearing: MountedBearing, point: MountedPoint) -> dict[str, Any]:
     found = point.equilibrium
     own = bearing_statics(found, point.rating, float(np.hypot(*point.pose[3:])))
     own["warnings"] = _warnings(bearing, point, own)
-    # Friction follows from a steady motion of the balls; where there is none, torque and power are those of no motion.
-    own["friction_torque_Nmm"] = own["friction_torque_Nmm"] if found.converged else None
-    own["power_loss_W"] = finite(float(found.losses.sum())) if found.converged else None
     clearance = None if bearing.takes and bearing.nominal_angle else 1e6 * bearing.model.geometry.clearance
     return {**own, "clearance_um": clearance}
 
@@ -390,11 +394,9 @@ def _of_rollers(bearing: MountedBearing, point: MountedPoint, rollers: RollerMod
 def _warnings(bearing: MountedBearing, point: MountedPoint, own: Mapping[str, Any]) -> list[str]:
     """Return warnings of exceeded limits, ratings first."""
     model, tilt = bearing.model, float(np.hypot(*point.pose[3:]))
-    told = [
+    return [
         *load_warnings(model, *point.loads),
         *warnings(1e9 * own["max_pressure_GPa"], own["shoulders"], tilt, model.geometry.kind.name, on_shaft=True),
         *operating_warnings(model, on_shaft=True),
+        *unsteady_warnings(point.equilibrium),
     ]
-    if not point.equilibrium.converged:
-        told.append("the balls have no steady motion at this load: no friction torque")
-    return told

@@ -137,7 +137,8 @@ def solve(
     Parameters
     ----------
     strict : bool
-        Whether the balls' friction must be in equilibrium too. The dynamics can start without it, from rolling balls.
+        Whether the balls' friction must be in equilibrium too. The dynamics can start without it, from rolling balls,
+        unless the limit of wall time has passed.
     by_warmer_oil : bool
         Whether to go by way of warmer oil where the direct search fails, which takes ten times as long.
     phase : float
@@ -185,7 +186,7 @@ def solve(
             context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
         )
     except SolverError:
-        if strict:
+        if strict or is_late():
             raise
         if creeps is not None:
             raise creeps from None
