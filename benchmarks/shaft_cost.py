@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
 from lambda_core.analysis.rotor.bearing_alone import alone_under_load
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.machine_motion import MachineEngine, machine_engine
@@ -32,7 +32,7 @@ def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]
 
     Each bearing alone, by name.
     """
-    model = resolve_machine(tomllib.loads(geared_shaft("machine")), changes)
+    model = resolve_machine(tomllib.loads(shaft_text("geared-shaft", "machine")), changes)
     first = machine_engine(model)
     found: dict[str, Callable[[], Engine]] = {MACHINE: lambda: machine_engine(model)}
     for i, part in enumerate(first.bearings):

@@ -40,8 +40,9 @@ def init(
         typer.Option(
             "--template",
             metavar="NAME",
-            help="Start from a template: geared-shaft (a shaft in two bearings), or one bearing with the usual loads "
-            "and oil of an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing; --bearing selects it.",
+            help="Start from a template: a shaft in two bearings (geared-shaft, motor-shaft, tapered-shaft), or one "
+            "bearing with the usual loads and oil of an electric-motor, gearbox-shaft, spindle, pump, wheel or "
+            "thin-housing; --bearing selects it.",
         ),
     ] = None,
     out: Annotated[

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
 
 
-GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
-
-
 def check(
     source: Source,
     overrides: Iterable[str] = (),
@@ -135,8 +132,8 @@ def init_case(
     bearing : str, optional
         Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
     template : str, optional
-        Instead of `start`: one of :func:`templates`. ``geared-shaft`` is a shaft in two bearings; the others are one
-        bearing with what is usual in such a machine, with `bearing` for another one.
+        Instead of `start`: one of :func:`templates`. Three are shafts in two bearings: geared-shaft, motor-shaft and
+        tapered-shaft; the others are one bearing with what is usual in such a machine, with `bearing` for another one.
     changes : sequence of str
         ``path=value``: what the new case has otherwise, with `bearing` or a `template` of one bearing.
     as_machine : bool
@@ -160,10 +157,11 @@ def init_case(
     """
     from lambda_core.case.case_io import read_case
     from lambda_core.case.case_writer import new_case, write_new
+    from lambda_core.model.machine_templates import SHAFTS
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
     changes = listed(changes, "changes")
-    if changes and ((bearing is None and template is None) or template == GEARED_SHAFT):
+    if changes and ((bearing is None and template is None) or template in SHAFTS):
         raise UsageError(
             "load, speed, oil and temperature of a new case need a bearing: add --bearing or a template of one bearing"
         )
@@ -177,10 +175,10 @@ def init_case(
     if start is not None:
         other = "a bearing" if template is None else "a template"
         raise UsageError(f"a new case starts from a case or from {other}, not from both")
-    if as_machine and template == GEARED_SHAFT:
+    if as_machine and template in SHAFTS:
         raise UsageError(_IS_MACHINE)
     text = _template_text(name, template, bearing, _given_radial(changes))
-    if template == GEARED_SHAFT:
+    if template in SHAFTS:
         import tomllib
 
         from lambda_core.case.case_writer import save_text
@@ -261,14 +259,14 @@ def _template_text(name: str, template: str | None, bearing: str | None, radial:
     from lambda_core.catalogue.designation import designated
     from lambda_core.catalogue.roller_designation import roller_designation
     from lambda_core.model.fresh_case import fresh_balls, fresh_case, fresh_rollers
-    from lambda_core.model.machine_templates import GENERAL, MACHINES, geared_shaft
+    from lambda_core.model.machine_templates import GENERAL, MACHINES, SHAFTS, shaft_text
 
-    if template == GEARED_SHAFT:
+    if template in SHAFTS:
         if bearing is not None:
-            raise UsageError(f"{GEARED_SHAFT} has two bearings: leave out --bearing and change them in its file")
-        return geared_shaft(name)
+            raise UsageError(f"{template} has two bearings: leave out --bearing and change them in its file")
+        return shaft_text(template, name)
     if template is not None and template not in MACHINES:
-        raise UsageError(unknown_name("template", template, [*MACHINES, GEARED_SHAFT]))
+        raise UsageError(unknown_name("template", template, [*MACHINES, *SHAFTS]))
     kind = GENERAL if template is None else MACHINES[template]
     with closing(catalogue()) as opened:
         rollers = roller_designation(opened, bearing) if bearing is not None else None
@@ -287,10 +285,10 @@ def templates() -> dict[str, str]:
     dict of str to str
         Names for :func:`init_case` and :func:`draft`.
     """
-    from lambda_core.model.machine_templates import MACHINES
+    from lambda_core.model.machine_templates import MACHINES, SHAFTS
 
     found = {name: f"{kind.words}: {kind.bearing} {kind.clearance}" for name, kind in MACHINES.items()}
-    return {**found, GEARED_SHAFT: "shaft in two bearings with a helical gear: SKF 6208, SKF 6206"}
+    return found | SHAFTS
 
 
 def draft(source: str | Path | None = None, *, template: str | None = None, is_machine: bool = False) -> Draft:

@@ -107,10 +107,16 @@ MACHINES: dict[str, MachineTemplate] = {
     ),
 }  # fmt: skip
 
+SHAFTS = {
+    "geared-shaft": "shaft in two bearings with a helical gear: SKF 6208, SKF 6206",
+    "motor-shaft": "shaft of a motor with rotor and belt: SKF 6308, SKF NU 208 ECP",
+    "tapered-shaft": "gearbox shaft in two tapered roller bearings, X arrangement: SKF 32208",
+}
 
-def geared_shaft(name: str) -> str:
-    """Return the commented case of a geared shaft.
 
-    The shaft called `name` has two bearings and a gear.
+def shaft_text(template: str, name: str) -> str:
+    """Return the commented case of one of SHAFTS.
+
+    It is called `name`.
     """
-    return start_text("geared-shaft", name=json.dumps(name)[1:-1])
+    return start_text(template, name=json.dumps(name)[1:-1])

@@ -22,7 +22,7 @@ import h5py
 import numpy as np
 
 from lambda_core import api
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results import hdf5
 from tests.attacks.trial import Outcome, Trial, attempt
 
@@ -87,7 +87,7 @@ def command(folder: Path) -> tuple[str, ...]:
     """
     if not _part(folder).endswith(OF_MACHINES):
         return RUN
-    made = made_once(folder, "case", lambda place: (place / "box.toml").write_text(geared_shaft("box")))
+    made = made_once(folder, "case", lambda place: (place / "box.toml").write_text(shaft_text("geared-shaft", "box")))
     return ("run", str(made / "box.toml"), *RUN[2:4], "--set", f"solver.duration={_MACHINE_DURATION}", *RUN[6:])
 
 

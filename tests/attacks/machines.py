@@ -19,7 +19,7 @@ from typing import Any
 from lambda_core import api
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError
 from lambda_core.machine import Machine
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from tests.attacks import hostile as of_one
 from tests.attacks.damage import Said, line
 from tests.attacks.trial import attempt
@@ -55,7 +55,7 @@ def machines() -> tuple[dict[str, Any], ...]:
 
     Gears, a network, a circuit, laws, held rings and cages.
     """
-    box = tomllib.loads(geared_shaft("box"))
+    box = tomllib.loads(shaft_text("geared-shaft", "box"))
     warm = {"conductances": "harris", "ambient": "20 degC"}
     seal = {"at": "160 mm", "z": {"stiffness": "1 N/um", "damping": "200 N s/m"}}
     extra = {"thermal": warm, "connections": {"seal": seal}, "markers": {"foot": {"x": "10 mm"}}}
@@ -188,7 +188,7 @@ def call(seed: int, number: int, folder: Path) -> Said:
 
 
 def _box(**options: Any) -> Machine:
-    return Machine.from_case(tomllib.loads(geared_shaft("box"))).with_(**options)
+    return Machine.from_case(tomllib.loads(shaft_text("geared-shaft", "box"))).with_(**options)
 
 
 _CALLS: dict[str, Callable[[Any], object]] = {

@@ -13,12 +13,12 @@ import pytest
 from lambda_core import api
 from lambda_core.case.written import merged
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, changed."""
-    return merged(tomllib.loads(geared_shaft("box")), changes)
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes)
 
 
 def machine(**changes: Any) -> MachineModel:

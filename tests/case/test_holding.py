@@ -14,7 +14,7 @@ from lambda_core.case.written import merged
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers.structure import static_rows, structure
 
 BOX = {"x": "85 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}
@@ -22,7 +22,7 @@ BOX = {"x": "85 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, changed."""
-    return merged(tomllib.loads(geared_shaft("box")), changes)
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes)
 
 
 def machine(**changes: Any) -> MachineModel:
@@ -134,7 +134,7 @@ def test_loads_turn_a_body_that_is_free_to_spin() -> None:
 
 def test_a_draft_edits_short_forms() -> None:
     """Show and change stiffness and mode in both forms."""
-    draft = draft_of(geared_shaft("box"), None)
+    draft = draft_of(shaft_text("geared-shaft", "box"), None)
     support = ("bearings", "right", "support")
     assert draft.get(*support, "x", "mode") == "free"
     draft.set(*support, "y", value="200 N/um")

@@ -11,7 +11,7 @@ import pytest
 from lambda_core import api
 from lambda_core.case.case_io import load_case, read_case, toml_tables
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 LOAD = "time [ms],load [kN]\n0,1.0123456789\n0.333333333333,2\n7,2.5\n"
 VOLTS = "time [us],voltage [V]\n0,0\n100.123456789,5\n200,0\n"
@@ -48,7 +48,7 @@ def rig(tmp_path: Path) -> Path:
     (folder / "data" / "load.csv").write_text(LOAD)
     (folder / "data" / "volts.csv").write_text(VOLTS)
     (folder / "rig.toml").write_text(BEARING)
-    (folder / "box.toml").write_text(geared_shaft("box") + MACHINE)
+    (folder / "box.toml").write_text(shaft_text("geared-shaft", "box") + MACHINE)
     return folder
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from lambda_core import api
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 CASE = "6208-axial-1300"  # balls of 11.9 mm on 60 mm; the ring weighs 0.111 kg
 MISTAKES = [
@@ -43,7 +43,7 @@ def test_a_body_or_motion_that_no_bearing_has_is_refused(option: str, value: str
 @pytest.mark.parametrize(("option", "value", "where", "words"), [row for row in MISTAKES if "inner_ring.y" not in row])
 def test_so_it_is_in_a_machine(option: str, value: str, where: str, words: str) -> None:
     body, name = option.split(".")
-    case: dict[str, Any] = tomllib.loads(geared_shaft("box"))
+    case: dict[str, Any] = tomllib.loads(shaft_text("geared-shaft", "box"))
     written = tomllib.loads(f"v = {value}")["v"] if value.startswith("{") else value
     case["bearings"]["left"][body] = {name: written}
     with pytest.raises(api.CaseError) as caught:

@@ -10,14 +10,14 @@ import pytest
 from lambda_core import api
 from lambda_core.case import case_io
 from lambda_core.case.case_io import load_case, read_case
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 
 @pytest.fixture
 def box(tmp_path: Path) -> Path:
     """Return the file of a machine."""
     path = tmp_path / "box.toml"
-    path.write_text(geared_shaft("box"))
+    path.write_text(shaft_text("geared-shaft", "box"))
     return path
 
 

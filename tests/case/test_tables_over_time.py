@@ -22,7 +22,7 @@ from lambda_core.case.pairs import read_pairs
 from lambda_core.fitting.measurements import read_measurements
 from lambda_core.model.bearing_model import TableTerm, TimeFunction
 from lambda_core.model.laws.time_functions import initial, peak, scaled
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.time_tables import add_terms
@@ -157,7 +157,7 @@ def test_a_spline_through_a_well_sampled_sine_is_silent() -> None:
 def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     table = {"kind": "table", "interpolation": "spline", "points": PULSE}
     speed = {**table, "points": [["0 s", "1000 rpm"], ["1 s", "1000 rpm"], ["1.1 s", "2000 rpm"], ["3 s", "2000 rpm"]]}
-    case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"at": "85 mm", "force_z": table}}}
+    case = tomllib.loads(shaft_text("geared-shaft", "box")) | {"loads": {"kick": {"at": "85 mm", "force_z": table}}}
     del case["gears"]  # whose power asks for a constant speed
     case["operation"] = {**case["operation"], "speed": speed}
     told = [sentence for sentence in api.model_warnings(resolve_machine(case)) if "spline" in sentence]

@@ -19,7 +19,7 @@ from lambda_core.discovery.manager import discover
 from lambda_core.domain.installed import PLUGINS, Source, installed
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.laws.law import Law
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.plugins import Method, MethodTable, View, hookimpl
 from lambda_core.studies.definition import Study
 from lambda_core.studies.study_check import _case_toml
@@ -108,7 +108,7 @@ def test_results_write_the_qualified_name(crowded: Any) -> None:
 def test_the_stored_case_of_a_machine_names_packages_of_laws(crowded: Any) -> None:
     """Name them for all bearings, one, and studies."""
     case = {
-        **tomllib.loads(geared_shaft("box")), "models": {"traction": "single"},
+        **tomllib.loads(shaft_text("geared-shaft", "box")), "models": {"traction": "single"},
         "connections": {"foot": {"at": "left.outer_ring", "to": "ground", "law": "bushing"}},
     }  # fmt: skip
     case["bearings"]["left"]["models"] = {"traction": "late:ree-eyring"}

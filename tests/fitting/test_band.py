@@ -39,7 +39,7 @@ from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.api import case_of
 from lambda_core.model.checking import check_bearing
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.band_text import banded, ends, source_lines
 from lambda_core.results.model_band import FIELDS, TEMPERATURES, Band, Contributor, ModelBand
 from lambda_core.results.quasistatic import QuasiStatic
@@ -233,7 +233,7 @@ def test_check_refuses_a_fitted_value_at_a_wrong_path(source: str) -> None:
 
 
 def test_check_refuses_a_fitted_value_at_a_wrong_path_of_a_machine() -> None:
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     loss = "parameters.elastic_hysteresis.loss_factor"
     right = [(loss, ""), (f"bearings.left.{loss}", ""), ("bearings.left.clearance", "um")]
     api.check({**tables, "fit": _fit_of(*right)})
@@ -263,7 +263,7 @@ def test_a_fitted_machine_hands_its_bearings_their_part_of_the_fit() -> None:
         "parameters": [{**row, "path": path, "unit": unit} for path, unit in zip(paths, units, strict=True)],
         "correlation": [[1.0, 0.5, 0.2], [0.5, 1.0, 0.1], [0.2, 0.1, 1.0]],
     }  # fmt: skip
-    tables = {**tomllib.loads(geared_shaft("box")), "fit": fit}
+    tables = {**tomllib.loads(shaft_text("geared-shaft", "box")), "fit": fit}
     left = bearing_tables(tables, "left")["fit"]
     assert [one["path"] for one in left["parameters"]] == [paths[0], "bearing.clearance"]
     assert left["correlation"] == [[1.0, 0.5], [0.5, 1.0]]
@@ -280,7 +280,7 @@ def test_the_errors_of_a_fitted_machine_replace_the_ranges() -> None:
 
     One value of both bearings: its law is kept, and the range does not count.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     value = {"path": "parameters.elastic_hysteresis.loss_factor", "value": 0.03, "standard_error": 0.001}
     origin = {"file": "rig.csv", "sha256": "0", "date": "2026-01-01", "count": 9}
     tables["parameters"] = {"elastic_hysteresis": {"loss_factor": 0.03}}
@@ -339,12 +339,14 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
 
     Errors of the same laws are correlated.
     """
-    found = api.quasistatic(tomllib.loads(geared_shaft("box")), band=True)
+    found = api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box")), band=True)
     each = [one.friction_torque_Nmm_band for one in found.bearings]
     assert found.friction_torque_Nmm_band == pytest.approx([sum(ends) for ends in zip(*each, strict=True)])
     assert found.friction_torque_Nmm_band[0] < found.friction_torque_Nmm < found.friction_torque_Nmm_band[1]
     name = found.bearings[0].name
-    alone = api.model_band(tomllib.loads(geared_shaft("box")), bearing=name, quantities=TORQUE).band("friction torque")
+    alone = api.model_band(tomllib.loads(shaft_text("geared-shaft", "box")), bearing=name, quantities=TORQUE).band(
+        "friction torque"
+    )
     assert alone.around(found.bearings[0].friction_torque_Nmm) == pytest.approx(each[0])
 
 
@@ -611,7 +613,7 @@ def test_the_text_of_a_machine_shows_values_bands_and_causes_of_its_bearings(tmp
     The band of L_10rh stood far from it as that of the "rating life", that of the film had no number, and only the
     causes of the torque had names.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     run = api.run(tables, ["solver.duration=1 ms"], out=tmp_path / "box.h5", band=True).summary()
     banded = r"[\d. ]+ \w+(?: mm)? \(model [\d. ]+ \.\. [\d. ]+\)"
     for text in (api.quasistatic(tables, band=True).text(), run.text()):

@@ -12,7 +12,7 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
 from lambda_core.fitting.measurements import Measurements, parse_measurements
 from lambda_core.fitting.subjects import Subject, subject_of
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 SUPPORT = "bearings.right.support.z=50 N/um..400 N/um"
 TRUTH = ("parameters.elastic_hysteresis.loss_factor=0.035", "bearings.right.support.z=100 N/um")
@@ -26,7 +26,9 @@ def machine() -> str:
 
     Its right bearing sits in an elastic seat.
     """
-    text = geared_shaft("rig").replace('support.x = "free" ', 'support.z = "150 N/um"\nsupport.x = "free" ')
+    text = shaft_text("geared-shaft", "rig").replace(
+        'support.x = "free" ', 'support.z = "150 N/um"\nsupport.x = "free" '
+    )
     return f'{text}\n[loads.belt]\nat = "5 mm"\nforce_z = "-800 N"\n'
 
 

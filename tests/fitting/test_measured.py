@@ -16,7 +16,7 @@ from lambda_syla2026.published import MEASURED, TABLE_4
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError, UsageError
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 PAGE = Path(__file__).parents[2] / "docs/validation.md"
 
@@ -267,7 +267,7 @@ def test_rollers_at_computed_temperatures_are_compared_there(tmp_path: Path) -> 
 
 
 def test_a_series_of_a_machine_is_compared_with_its_bands(tmp_path: Path) -> None:
-    (tmp_path / "box.toml").write_text(geared_shaft("box"))
+    (tmp_path / "box.toml").write_text(shaft_text("geared-shaft", "box"))
     (tmp_path / "rig.toml").write_text(
         f'title = "rig"\ncase = "{tmp_path / "box.toml"}"\nsource = "us"\nlicence = "CC0"\n'
         'how_read = "sensor"\nuncertainty = "2 %"\n'

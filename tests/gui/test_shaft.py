@@ -27,7 +27,7 @@ from lambda_core.case.draft import draft_of
 from lambda_core.case.machine import MachineCase
 from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.rating import Rating
 from lambda_core.results.verdict import Verdict
 
@@ -305,7 +305,7 @@ z = "1 N/um"
 
 
 def test_a_housing_is_drawn_with_its_springs() -> None:
-    case = tomllib.loads(geared_shaft("box") + HOUSED)
+    case = tomllib.loads(shaft_text("geared-shaft", "box") + HOUSED)
     case["bearings"]["left"]["outer"] = "box"
     names = [
         "primary",
@@ -328,7 +328,7 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
 
     A body in markers, springs and bearings, a marker in springs; one undo each.
     """
-    text = geared_shaft("box").replace("# outer = ", "outer = ") + HOUSED
+    text = shaft_text("geared-shaft", "box").replace("# outer = ", "outer = ") + HOUSED
     draft = draft_of(text, tmp_path / "box.toml")
     found = [m for top in outline(draft.root, section_names(draft)) for m in top.walk()]
     (node,) = (n for n in found if n.key == "bodies.box")

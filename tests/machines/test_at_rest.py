@@ -7,7 +7,7 @@ from typing import Any
 
 from lambda_core import api
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 DASH = (" - ", " -\n", "0.00..0.00 um")
 
@@ -17,7 +17,7 @@ def test_a_machine_at_rest_has_no_torque_of_all_bearings() -> None:
 
     It printed "friction torque  - N mm of all bearings".
     """
-    case: dict[str, Any] = tomllib.loads(geared_shaft("box"))
+    case: dict[str, Any] = tomllib.loads(shaft_text("geared-shaft", "box"))
     case["operation"]["speed"] = "0 rpm"
     del case["gears"]["wheel"]["power"]
     case["gears"]["wheel"]["torque"] = "40 N m"

@@ -12,7 +12,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.analysis.rotor.bearing_alone import alone_under_load, at_speed, bearing_alone
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.machine_statics import solve_machine
 
@@ -23,7 +23,7 @@ def test_a_bearing_alone_is_that_of_the_machine(number: int) -> None:
 
     It is free under the load where the machine holds it: loads to 2 N of 236, friction and position to 2 %.
     """
-    machine = api.check(tomllib.loads(geared_shaft("box")))
+    machine = api.check(tomllib.loads(shaft_text("geared-shaft", "box")))
     state = solve_machine(machine)
     held = state.rings[number].equilibrium()
     free = solve(alone_under_load(machine, state, number))
@@ -39,7 +39,7 @@ def test_a_bearing_alone_turns_at_another_speed() -> None:
 
     The torque is that of its equilibrium, over ball positions.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     curve = api.stribeck(tables, bearing="left", speeds_rpm=[1500.0, 3000.0])
     torque = api.quasistatic(tables).bearing("left").friction_torque_Nmm
     assert curve.torque_Nmm[1] == pytest.approx(torque, rel=0.02)
@@ -55,7 +55,7 @@ def test_a_bearing_taken_out_keeps_its_surroundings() -> None:
     """
     found = []
     for ambient in ("20 degC", "50 degC"):
-        machine = api.check(tomllib.loads(geared_shaft("box")) | {"thermal": {"ambient": ambient}})
+        machine = api.check(tomllib.loads(shaft_text("geared-shaft", "box")) | {"thermal": {"ambient": ambient}})
         found.append(api.thermal(bearing_alone(machine, "left")).temperatures_degC)
     warmer = [found[1][part] - found[0][part] for part in found[0] if part != "ambient"]
     assert all(10.0 < difference < 30.0 for difference in warmer), warmer

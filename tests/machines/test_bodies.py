@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.analysis.rotor.vibration import damped, supported
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.machine_statics import solve_machine
@@ -29,7 +29,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 
     With a spring.
     """
-    return tomllib.loads(geared_shaft("box")) | {"connections": {"seal": SEAL}} | changes
+    return tomllib.loads(shaft_text("geared-shaft", "box")) | {"connections": {"seal": SEAL}} | changes
 
 
 def test_a_disc_by_its_shape() -> None:

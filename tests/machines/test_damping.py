@@ -9,7 +9,7 @@ import pytest
 
 from lambda_core.analysis.rotor.vibration import bearing_damping, damped, housed_damping, modes_at, supported
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -29,7 +29,7 @@ def solved() -> Solved:
 
     Its right bearing is on springs; friction is included.
     """
-    case = tomllib.loads(geared_shaft("box"))
+    case = tomllib.loads(shaft_text("geared-shaft", "box"))
     case["bearings"]["right"]["support"] = {"x": "free", "y": "50 N/um", "z": "80 N/um"}
     model = resolve_machine(case)
     state = solve_machine(model)

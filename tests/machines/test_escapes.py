@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from lambda_cli.main import main
 
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 ESCAPE = "\x1b]0;owned\x07\x9b2J\u202e"
 MORE = """
@@ -39,7 +39,7 @@ x = "150 mm"
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a tenth of a millisecond."""
     found = tmp_path_factory.mktemp("escapes")
-    (found / "box.toml").write_text(geared_shaft("box") + MORE)
+    (found / "box.toml").write_text(shaft_text("geared-shaft", "box") + MORE)
     arguments = ["--quiet", "--out", str(found / "run.h5"), "--duration", "0.1 ms"]
     assert main(["run", str(found / "box.toml"), *arguments]) == 5
     return found / "run.h5"

@@ -14,7 +14,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case.written import merged
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 
 def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
@@ -23,7 +23,7 @@ def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
     Of the template's case after changes.
     """
     with pytest.raises(api.CaseError) as caught:
-        api.check(merged(tomllib.loads(geared_shaft("box")), changes))
+        api.check(merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes))
     found = {problem.where: problem.message for problem in caught.value.problems}
     assert len(found) == len(caught.value.problems)
     return found
@@ -118,7 +118,7 @@ def test_nothing_in_a_table_is_nothing_said(tmp_path: Path) -> None:
 
     This holds for plain tables, as in the case of one bearing.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     tables["life"]["contamination"] = None
     machine = api.check(tables, folder=tmp_path)
     assert [bearing.model.contamination for bearing in machine.bearings] == [None, None]

@@ -18,14 +18,14 @@ from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.written import merged
 from lambda_core.domain.errors import Problem
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results.limits import warnings
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with changes."""
-    return merged(tomllib.loads(geared_shaft("box")), changes)
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes)
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_laws_are_tried_out(
     `check` does the same for one bearing.
     """
     monkeypatch.setattr(api, "law_problems", lambda model: (Problem("models.traction", "gives no number"),))
-    (tmp_path / "box.toml").write_text(geared_shaft("box"))
+    (tmp_path / "box.toml").write_text(shaft_text("geared-shaft", "box"))
     assert main(["check", str(tmp_path / "box.toml")]) == 3
     said = capsys.readouterr().err.splitlines()
     assert said[0].endswith("1 error")

@@ -11,7 +11,7 @@ import pytest
 from lambda_core import api
 from lambda_core.analysis.rotor.vibration import damped, supported
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.machine_statics import solve_machine
 
@@ -35,7 +35,9 @@ PARAMETERS = {
 
 def machine(**changes: Any) -> MachineModel:
     """Return the machine that init writes with another body, changed."""
-    found = api.check(tomllib.loads(geared_shaft("box")) | {"bodies": {"box": {**BOX, "support": STANDS}}} | changes)
+    found = api.check(
+        tomllib.loads(shaft_text("geared-shaft", "box")) | {"bodies": {"box": {**BOX, "support": STANDS}}} | changes
+    )
     assert isinstance(found, MachineModel)
     return found
 
@@ -117,7 +119,7 @@ def test_each_bearing_has_laws_and_surfaces_of_its_own() -> None:
     The other has those of the machine; a message names a wrong value with its place.
     """
     own = {"surface": {"roughness": "0.3 um"}, "materials": {"balls": "Si3N4"}, "models": {"cage_contact": "none"}}
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     tables["bearings"]["left"] |= own
     left, right = api.check(tables).bearings
     assert (left.model.roughness, left.model.ball_material.name) == (0.3e-6, "Si3N4")

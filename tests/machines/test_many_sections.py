@@ -15,7 +15,7 @@ from lambda_core import api
 from lambda_core.formulas.elastic.body import shaft_body
 from lambda_core.formulas.elastic.merged_sections import merged_sections
 from lambda_core.formulas.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 STEEL = BodyMaterial(2.08e11, 0.3, 7850.0)
 
@@ -25,7 +25,7 @@ def cut(pieces: int, step: float) -> dict[str, Any]:
 
     Each section of the geared shaft, with diameters that alternate [mm].
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     found = []
     for section in tables["shaft"]["sections"]:
         length, diameter = (float(section[name].split()[0]) for name in ("length", "diameter"))

@@ -21,7 +21,7 @@ from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.formulas.elastic.whirl import natural_frequencies
 from lambda_core.model.machine_model import PLACES, MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results import reader
 from lambda_core.solver import records as R
@@ -40,7 +40,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 
     With an unbalance.
     """
-    found = tomllib.loads(geared_shaft("box")) | changes
+    found = tomllib.loads(shaft_text("geared-shaft", "box")) | changes
     if "wheel" in found["discs"]:
         found["discs"]["wheel"]["unbalance"] = "50 g mm"
     return found
@@ -209,7 +209,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     A case and a run of 6 ms of it that went on to 9 ms, as after a kill.
     """
     found = tmp_path_factory.mktemp("motion")
-    (found / "box.toml").write_text(geared_shaft("box"))
+    (found / "box.toml").write_text(shaft_text("geared-shaft", "box"))
     arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--band", "none"]
     part = str(found / "part.h5")
     assert main(["run", str(found / "box.toml"), *arguments, "--out", part, "--duration", "6 ms"]) == 5
@@ -290,7 +290,7 @@ def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
 
     6208 and 6206 of the template geared-shaft: energy to 1e-3; as in their equilibrium.
     """
-    (tmp_path / "box.toml").write_text(geared_shaft("box"))
+    (tmp_path / "box.toml").write_text(shaft_text("geared-shaft", "box"))
     model = api.check(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
     found = api.run(model, out=tmp_path / "run.h5").summary()
     assert found.converged, found.reasons

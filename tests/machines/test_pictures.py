@@ -10,12 +10,12 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.analysis.rotor.machine_modes import MachineModes
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.plugins import NotApplicable
 
 
 def test_gears_and_the_running_speed_are_drawn() -> None:
-    model = api.check(tomllib.loads(geared_shaft("box")))
+    model = api.check(tomllib.loads(shaft_text("geared-shaft", "box")))
     assert isinstance(model, api.MachineModel)
     found, modes = api.quasistatic(model), api.modes(model)
     assert isinstance(modes, MachineModes)
@@ -68,7 +68,10 @@ def test_rollers_are_drawn_in_their_bearing() -> None:
 
 
 def test_both_kinds_of_equilibrium_name_their_bearings_alike() -> None:
-    alone, machine = api.quasistatic("6208-axial-1300"), api.quasistatic(tomllib.loads(geared_shaft("box")))
+    alone, machine = (
+        api.quasistatic("6208-axial-1300"),
+        api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box"))),
+    )
     assert list(alone.each) == ["bearing"]
     assert list(machine.each) == ["left", "right"]
     for found in (alone, machine):

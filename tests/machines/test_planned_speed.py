@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lambda_core.model.laws.law_context import max_speed
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.damping import _freed
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
@@ -25,7 +25,7 @@ def engine() -> MachineEngine:
 
     It is on the left bearing's outer raceway.
     """
-    tables: dict[str, Any] = tomllib.loads(geared_shaft("box"))
+    tables: dict[str, Any] = tomllib.loads(shaft_text("geared-shaft", "box"))
     tables["bearings"]["left"]["forces"] = {"ball_outer": DEFECT}
     return machine_engine(resolve_machine(tables))
 

@@ -11,7 +11,7 @@ import pytest
 from lambda_core import api
 from lambda_core.case.written import merged
 from lambda_core.domain.elements import OUTER
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.machine_statics import solve_machine
@@ -20,7 +20,7 @@ from lambda_core.solver.drivers.machine_statics import solve_machine
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
     """Return the template with prescribed seats."""
     seats = {"left": {"support": left}, "right": {"support": right}}
-    return merged(tomllib.loads(geared_shaft("box")), {"bearings": seats, **changes})
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), {"bearings": seats, **changes})
 
 
 def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
@@ -29,7 +29,7 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
     By 20 um and 0.2 mrad: the same reactions, second order.
     """
     angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
-    model = resolve_machine(tomllib.loads(geared_shaft("box")))
+    model = resolve_machine(tomllib.loads(shaft_text("geared-shaft", "box")))
     places = {bearing.name: bearing.position for bearing in model.bearings}
     seats = [
         {

@@ -21,7 +21,7 @@ from lambda_core.formulas.elastic.body import ElasticBody, internal_forces
 from lambda_core.formulas.elastic.reduced import FORMAT, read_reduced, write_reduced
 from lambda_core.formulas.elastic.whirl import craig_bampton
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.lumps import lump
 from lambda_core.solver.drivers.machine_motion import machine_engine
@@ -30,7 +30,7 @@ from lambda_core.solver.drivers.machine_statics import solve_machine
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, warm, with an unbalance."""
-    found = tomllib.loads(geared_shaft("box")) | changes
+    found = tomllib.loads(shaft_text("geared-shaft", "box")) | changes
     found["discs"]["wheel"]["unbalance"] = "50 g mm"
     return found
 

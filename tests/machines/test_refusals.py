@@ -16,13 +16,13 @@ from lambda_core.case.written import merged
 from lambda_core.formulas.elastic.body import ElasticBody
 from lambda_core.formulas.elastic.reduced import write_reduced
 from lambda_core.formulas.elastic.whirl import craig_bampton
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with changes."""
-    return merged(tomllib.loads(geared_shaft("box")), changes)
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes)
 
 
 @pytest.fixture

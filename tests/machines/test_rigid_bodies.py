@@ -15,7 +15,7 @@ from lambda_core.analysis.rotor.vibration import criticals, damped, masses, mode
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.elastic.whirl import natural_frequencies
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -38,7 +38,7 @@ def tables(**changes: Any) -> dict[str, Any]:
 
     Of 12 kg on four mounts, the left bearing's seat damped.
     """
-    found = tomllib.loads(geared_shaft("box"))
+    found = tomllib.loads(shaft_text("geared-shaft", "box"))
     found["bodies"] = {"box": {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}}
     feet = {f"{a}{b}": (x, y) for a, x in (("l", 10), ("r", 160)) for b, y in (("f", -60), ("b", 60))}
     found["markers"] = {
@@ -240,7 +240,7 @@ def test_a_torque_over_time() -> None:
     The shaft does not twist.
     """
     wave = {"kind": "harmonic", "amplitude": "20 N m", "frequency": "100 Hz", "phase": "90 deg"}
-    case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"at": "160 mm", "moment_x": wave}}}
+    case = tomllib.loads(shaft_text("geared-shaft", "box")) | {"loads": {"fan": {"at": "160 mm", "moment_x": wave}}}
     model = resolve_machine(case)
     assert model.loads[model.body.rows(0.16).start + 3] == pytest.approx(20.0)
     assert dict(model.varying)[model.body.rows(0.16).start + 3].terms[0].kind == "harmonic"

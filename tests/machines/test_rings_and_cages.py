@@ -12,7 +12,7 @@ import pytest
 from lambda_core import api
 from lambda_core.case.written import merged
 from lambda_core.model.machine_model import BearingPart
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
@@ -24,7 +24,7 @@ SEAT = {"y": "80 N/um", "z": "50 N/um"}
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case of init with changes."""
-    return merged(tomllib.loads(geared_shaft("box")), changes)
+    return merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes)
 
 
 def on_springs(**changes: Any) -> dict[str, Any]:

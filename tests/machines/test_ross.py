@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core.analysis.rotor.vibration import bearing_damping, criticals, damped, modes_at, supported
 from lambda_core.export.ross import ross_rotor
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.solver.drivers.machine_statics import solve_machine
 
@@ -25,7 +25,7 @@ def test_natural_frequencies_and_critical_speeds_agree() -> None:
 
     ROSS has two-node elements and Hutchinson's shear coefficient.
     """
-    model = resolve_machine(tomllib.loads(geared_shaft("box")))
+    model = resolve_machine(tomllib.loads(shaft_text("geared-shaft", "box")))
     state = solve_machine(model)
     rotor, stiffness = ross_rotor(model, state), supported(model, state)
     damping = damped(model, state, bearing_damping(model, [ring.equilibrium() for ring in state.rings]))

@@ -11,14 +11,14 @@ import pytest
 from lambda_core import api
 from lambda_core.analysis.rotor.vibration import supported
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers.machine_motion import machine_engine
 from lambda_core.solver.drivers.machine_statics import solve_machine
 
 
 def machine(**support: Any) -> MachineModel:
     """Return the machine that init writes, its shaft held."""
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     tables["shaft"]["support"] = support
     found = api.check(tables)
     assert isinstance(found, MachineModel)
@@ -83,7 +83,7 @@ def test_a_torque_drives_the_shaft() -> None:
     """
     works = []
     for torque in (0.0, 2.0):
-        tables = tomllib.loads(geared_shaft("box")) | {"gears": {}}
+        tables = tomllib.loads(shaft_text("geared-shaft", "box")) | {"gears": {}}
         tables["operation"]["torque"] = f"{torque} N m"
         engine = machine_engine(api.check(tables))
         assert engine.advance(3e-3).ok
@@ -97,7 +97,7 @@ def test_a_torque_drives_the_shaft() -> None:
 
 
 def test_a_torque_and_a_speed_over_time_contradict() -> None:
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     ramp = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "end_time": "1 s"}
     tables["operation"] = {"speed": ramp, "torque": "2 N m"}
     with pytest.raises(api.CaseError) as found:

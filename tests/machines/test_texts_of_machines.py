@@ -16,18 +16,18 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.domain.unit_systems import US
 from lambda_core.domain.wrapping import HEAD
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.model_band import Band, ModelBand
 
 
 def box() -> dict[str, Any]:
-    return tomllib.loads(geared_shaft("box"))
+    return tomllib.loads(shaft_text("geared-shaft", "box"))
 
 
 @pytest.fixture(scope="module")
 def box_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     found = tmp_path_factory.mktemp("texts") / "box.toml"
-    found.write_text(geared_shaft("box"))
+    found.write_text(shaft_text("geared-shaft", "box"))
     return found
 
 

@@ -20,7 +20,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from lambda_core import api
 from lambda_core.formulas.elastic import whirl
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers import equilibrium
 
 CASE = "6208-axial-1300"
@@ -92,7 +92,7 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
 def test_a_call_computes_with_one_thread_and_gives_the_others_back(
     call: Callable[[Any, Path], object], seen: set[int], tmp_path: Path
 ) -> None:
-    call(tomllib.loads(geared_shaft("box")), tmp_path / "r.h5")
+    call(tomllib.loads(shaft_text("geared-shaft", "box")), tmp_path / "r.h5")
     assert seen == {1}
     assert threads() == {2}
 
@@ -103,14 +103,14 @@ def test_a_run_begun_from_python_is_gone_on_with_on_the_command_line(tmp_path: P
 
     Whatever the number of threads: a run begins with the same bits.
     """
-    api.run(tomllib.loads(geared_shaft("box")), ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
+    api.run(tomllib.loads(shaft_text("geared-shaft", "box")), ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
     with threadpool_limits(1, user_api="blas"):
         assert main(["resume", str(tmp_path / "run.h5"), "--quiet", "--duration", "0.5 ms"]) == 5
 
 
 @pytest.mark.clock
 def test_a_shaft_takes_no_more_processor_time_than_time_and_than_with_one_thread(tmp_path: Path) -> None:
-    (tmp_path / "box.toml").write_text(geared_shaft("box"))
+    (tmp_path / "box.toml").write_text(shaft_text("geared-shaft", "box"))
     installed = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
     command = [sys.executable, "-c", TIMED, str(tmp_path / "box.toml")]
     found = [

@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results.reader import Result
 from lambda_core.solver.drivers.machine_motion import machine_engine
@@ -38,7 +38,9 @@ def box(solver: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
 
     And changes.
     """
-    return tomllib.loads(geared_shaft("box")) | ({"solver": solver} if solver is not None else {}) | changes
+    return (
+        tomllib.loads(shaft_text("geared-shaft", "box")) | ({"solver": solver} if solver is not None else {}) | changes
+    )
 
 
 def kicked(force: float, solver: dict[str, Any]) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from lambda_core.domain.unit_systems import SI
 from lambda_core.export.report import chapters, pdf
 from lambda_core.export.report.gallery import stem_of
 from lambda_core.export.report.page import APPENDICES
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -227,7 +227,7 @@ def test_a_report_of_one_bearing_has_four_pages(radial_run: Result, tmp_path: Pa
 @pytest.mark.skipif(pdf._browser() is None, reason="needs a browser on PATH")
 def test_a_report_of_two_bearings_prints_on_four_pages(tmp_path: Path) -> None:
     case = tmp_path / "box.toml"
-    case.write_text(geared_shaft("box"), encoding="utf-8")
+    case.write_text(shaft_text("geared-shaft", "box"), encoding="utf-8")
     run = api.run(case, ["solver.duration=0.2 ms"], out=tmp_path / "box.h5")
     printed = api.report(run, tmp_path / "box.pdf").read_bytes()
     assert len(re.findall(rb"/Type /Page\b", printed)) == 4
@@ -275,7 +275,7 @@ def test_each_bearing_of_a_run_is_reported_with_its_own_geometry(monkeypatch: py
 
 def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None:
     case = tmp_path / "box.toml"
-    case.write_text(geared_shaft("box"), encoding="utf-8")
+    case.write_text(shaft_text("geared-shaft", "box"), encoding="utf-8")
     text = api.report(case, tmp_path / "box.html", appendices=["origin"]).read_text(encoding="utf-8")
     page, found = Page(text), api.quasistatic(case)
     assert isinstance(found, MachineEquilibrium)

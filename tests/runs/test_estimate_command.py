@@ -10,7 +10,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.drivers.machine_motion import machine_engine
 
 
@@ -19,7 +19,7 @@ def test_an_estimate_of_a_machine_is_about_what_its_run_takes() -> None:
 
     To a factor of three: the trial is 2.5 ms of 100 ms.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     found = api.estimate(tables, ["solver.duration=0.1 s"])
     assert found.simulated_s == 0.1
     engine = machine_engine(api.check(tables))
@@ -37,7 +37,7 @@ def test_without_a_duration_a_run_is_the_shortest_that_can_converge() -> None:
 
     `solver.max_duration` may end the run earlier.
     """
-    tables = tomllib.loads(geared_shaft("box"))
+    tables = tomllib.loads(shaft_text("geared-shaft", "box"))
     found = api.estimate(tables)
     assert 5.0 / 50.0 / 0.45 < found.simulated_s < 5.0 / 50.0 / 0.35  # cages turn at 0.35 to 0.45 of 50 1/s
     assert "5 turns of the slowest cage" in found.basis

@@ -23,7 +23,7 @@ from lambda_core import api
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.results import file_format, hdf5
 from lambda_core.results.opening import ResultError
@@ -80,7 +80,7 @@ class Kind:
 def kind(request: pytest.FixtureRequest) -> Kind:
     if request.param == "one bearing":
         return Kind("one", SINGLE, "1.5 ms", api.check)
-    return Kind("two", tomllib.loads(geared_shaft("box")), "1.5 ms", resolve_machine)
+    return Kind("two", tomllib.loads(shaft_text("geared-shaft", "box")), "1.5 ms", resolve_machine)
 
 
 @pytest.fixture(autouse=True)
@@ -215,7 +215,7 @@ def test_a_process_killed_before_its_last_word_goes_on_as_the_undisturbed_one(
     source = SINGLE
     if kind.name == "two":
         source = str(tmp_path / "box.toml")
-        Path(source).write_text(geared_shaft("box"))
+        Path(source).write_text(shaft_text("geared-shaft", "box"))
     process = warm.start(KILLED, source, str(tmp_path / "run.h5"), kind.duration)
     _, errors = process.communicate()
     assert process.returncode == 9, errors
@@ -287,7 +287,7 @@ def asked_and_gone_on(path: Path, bearing: str) -> None:
 @pytest.mark.parametrize("name", ["axis", "time"])
 def test_a_bearing_has_the_name_of_a_dimension(name: str, tmp_path: Path) -> None:
     source = tmp_path / "box.toml"
-    source.write_text(geared_shaft("box").replace("bearings.right", f"bearings.{name}"))
+    source.write_text(shaft_text("geared-shaft", "box").replace("bearings.right", f"bearings.{name}"))
     api.run(source, ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
     assert api.result(tmp_path / "run.h5", name)["load"].shape[1:] == (9, 2)
 

@@ -17,7 +17,7 @@ from lambda_core.domain.channels import Channel
 from lambda_core.laws.parameter import NoParameters
 from lambda_core.model.bearing_model import ChosenEvent, ChosenObserver
 from lambda_core.model.machine_model import MachineModel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.runs.launch import launch
 from lambda_core.views.observer import Event, Observer
 
@@ -34,7 +34,7 @@ def late(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) 
 
 def machine(**changes: Any) -> MachineModel:
     """Return the case that init writes, changed and resolved."""
-    found = api.check(merged(tomllib.loads(geared_shaft("box")), changes))
+    found = api.check(merged(tomllib.loads(shaft_text("geared-shaft", "box")), changes))
     assert isinstance(found, api.MachineModel)
     return found
 

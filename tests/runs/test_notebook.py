@@ -18,7 +18,7 @@ from fake_engine import FakeEngine, MakeProvenance
 
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results import summary
 from lambda_core.results.file_format import STATUS, STATUS_BYTES
 from lambda_core.results.reader import Result
@@ -152,5 +152,5 @@ def test_an_answer_goes_to_another_process() -> None:
 
 
 def test_an_estimate_of_a_machine_goes_to_another_process() -> None:
-    found = api.estimate(api.check(tomllib.loads(geared_shaft("box"))), announce=lambda _: None)
+    found = api.estimate(api.check(tomllib.loads(shaft_text("geared-shaft", "box"))), announce=lambda _: None)
     assert pickle.loads(pickle.dumps(found)) == found

@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.results.verdict import Margin
 
@@ -100,7 +100,7 @@ def test_an_unknown_level_of_contamination_names_the_nearest() -> None:
 
 
 def test_every_bearing_of_a_machine_is_judged() -> None:
-    found = api.quasistatic(tomllib.loads(geared_shaft("box")), ["requirements.life=20000 h"])
+    found = api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box")), ["requirements.life=20000 h"])
     assert isinstance(found, MachineEquilibrium)
     assert [one.verdict.met for one in found.bearings] == [True, True]
     assert "\nverdict          left MET   right MET\n" in found.text()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.solver.arrays.bundle import power_count
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.element_forces import element_forces
@@ -73,7 +73,7 @@ def test_a_run_writes_force_and_power_of_an_element(tmp_path: Path) -> None:
 
 
 def test_a_machine_writes_force_and_power_of_a_connection(tmp_path: Path) -> None:
-    (tmp_path / "box.toml").write_text(geared_shaft("box") + SEAL)
+    (tmp_path / "box.toml").write_text(shaft_text("geared-shaft", "box") + SEAL)
     result = api.run(tmp_path / "box.toml", ["solver.duration=0.2 ms"], out=tmp_path / "r.h5")
     summary = result.summary()
     turning = 3000.0 * np.pi / 30.0

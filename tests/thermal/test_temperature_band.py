@@ -18,7 +18,7 @@ from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.analysis.thermal.losses import Point
 from lambda_core.analysis.thermal.operating import BearingLoop
 from lambda_core.analysis.thermal.temperatures import ready_model
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.model_band import ModelBand
 from lambda_core.results.quasistatic import QuasiStatic
 
@@ -130,7 +130,7 @@ def test_a_result_at_computed_temperatures_has_their_bands() -> None:
 
 @pytest.mark.full
 def test_every_node_of_a_machine_has_a_band() -> None:
-    found = api.thermal(tomllib.loads(geared_shaft("box")), band=True)
+    found = api.thermal(tomllib.loads(shaft_text("geared-shaft", "box")), band=True)
     for node in ("left.oil", "right.oil", "left.inner_ring", "housing"):
         low, high = found.temperatures_degC_band[node]
         assert low < found.temperatures_degC[node] < high

@@ -21,7 +21,7 @@ from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check, tried
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.kernels import compile_kernel
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.runs.law_blame import BlamingEngine, naming_laws
 from lambda_core.solver.drivers.dynamics import MotionEngine, bearing_start
@@ -234,7 +234,7 @@ def test_a4_a_failure_of_a_machine_names_law_and_bearing(monkeypatch: pytest.Mon
 
     As for one bearing, with the name of the bearing whose contacts are driven.
     """
-    machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
+    machine = resolve_machine(tomllib.loads(shaft_text("geared-shaft", "box")), ["models.traction=sound"])
     engine = BlamingEngine(machine_start(machine).motion)
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
     monkeypatch.setattr(MotionEngine, "advance", lambda *_: stuck)

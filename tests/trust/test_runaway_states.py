@@ -13,7 +13,7 @@ from lambda_core.discovery import local_files, manager, survey
 from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
-from lambda_core.model.machine_templates import geared_shaft
+from lambda_core.model.machine_templates import shaft_text
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.runs import law_blame
 from lambda_core.runs.law_blame import BlamingEngine
@@ -112,7 +112,7 @@ def test_a_machine_ends_with_the_bearing_whose_state_ran_away(monkeypatch: pytes
     Steps become smaller as the state grows: a hundred times its scale is far enough here.
     """
     monkeypatch.setattr(law_blame, "FAR", 100.0)
-    machine = resolve_machine(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
+    machine = resolve_machine(tomllib.loads(shaft_text("geared-shaft", "box")), ["models.contact_state=feeding"])
     found = BlamingEngine(machine_start(machine).motion).advance(3e-3)
     assert not found.ok
     assert found.message.startswith("left: contact_state/feeding (states.py "), found.message
