@@ -1,6 +1,6 @@
 """End the program at the second request to stop.
 
-The first Ctrl+C or request to terminate lets it finish properly.
+The first Ctrl+C or request to terminate lets it finish properly: all are heard as Ctrl+C.
 
 Python hears signals only between two instructions of its own: inside a law that never returns it hears none. A thread
 of its own does, for compiled code lets other threads work meanwhile.
@@ -18,7 +18,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from lambda_core.domain.processes import STOP_SIGNALS
+from lambda_core.domain.processes import STOP_SIGNALS, heard_signals
 
 _SOON = 0.02  # [s]
 _GRACE = 0.5  # [s] for the program's own way out, which is the better one
@@ -59,6 +59,9 @@ def second_signal_ends(code: int) -> Iterator[Callable[[], bool]]:
             reported(lost)
 
     sys.unraisablehook = hear_again
+    silent = [number for number in heard_signals() if signal.getsignal(number) == signal.SIG_DFL]
+    for number in silent:
+        signal.signal(number, signal.default_int_handler)
     before = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
     threading.Thread(target=_watch, args=(ours, left, code, first), name="signals", daemon=True).start()
     try:
@@ -66,6 +69,8 @@ def second_signal_ends(code: int) -> Iterator[Callable[[], bool]]:
     finally:
         left.set()
         sys.unraisablehook = reported
+        for number in silent:
+            signal.signal(number, signal.SIG_DFL)
         if signal.set_wakeup_fd(before) not in (theirs.fileno(), -1):  # an event loop of a face came and went
             signal.set_wakeup_fd(-1)
         theirs.close()

@@ -16,10 +16,19 @@ from typing import Any
 ON_WINDOWS = os.name == "nt"
 # Of a process that outlives the one that starts it (CREATE_NEW_PROCESS_GROUP on Windows).
 APART: dict[str, Any] = {"creationflags": 0x200} if ON_WINDOWS else {"start_new_session": True}
-# Requests to stop, from the keyboard or from another program.
+# Requests to stop, from the keyboard, another program or a terminal that is closed.
 STOP_SIGNALS: tuple[int, ...] = tuple(
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
+
+
+def heard_signals() -> list[int]:
+    """Return the requests to stop that count here.
+
+    A process that was started with ``nohup`` outlives its terminal. A shell lets its background ignore Ctrl+C, which
+    comes from the keyboard; who sends that signal to one process means it.
+    """
+    return [n for n in STOP_SIGNALS if n == signal.SIGINT or signal.getsignal(n) != signal.SIG_IGN]
 
 
 def started(pid: int) -> str:

@@ -11,7 +11,7 @@ from types import FrameType
 from pydantic import BaseModel, ConfigDict
 
 from lambda_core.domain.number_text import plus_minus
-from lambda_core.domain.processes import STOP_SIGNALS
+from lambda_core.domain.processes import heard_signals
 
 
 class Progress(BaseModel):
@@ -68,7 +68,7 @@ class StopRequest:
 
 @contextmanager
 def stop_request() -> Iterator[StopRequest]:
-    """Turn Ctrl+C and SIGTERM into a request.
+    """Turn Ctrl+C and other stop signals into a request.
 
     It is answered between two steps.
 
@@ -85,7 +85,7 @@ def stop_request() -> Iterator[StopRequest]:
             raise KeyboardInterrupt
         request.signal_number = number
 
-    before = {number: signal.signal(number, note) for number in STOP_SIGNALS}
+    before = {number: signal.signal(number, note) for number in heard_signals()}
     try:
         yield request
     finally:

@@ -104,9 +104,11 @@ def _nothing() -> None:
 def _begin() -> None:
     """Prepare a worker process.
 
-    Ctrl+C is for the director, a worker does not outlive it, and ends at once when it is done.
+    Ctrl+C and the end of a terminal are for the director, a worker does not outlive it, and ends at once when it is
+    done.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for name in {"SIGINT", "SIGHUP"} & {one.name for one in signal.Signals}:
+        signal.signal(signal.Signals[name], signal.SIG_IGN)
     atexit.register(gc.freeze)
     parent = multiprocessing.parent_process()
     if parent is not None:

@@ -66,7 +66,7 @@ def changes(*overrides: str) -> list[str]:
     return [word for override in overrides for word in ("--set", override)]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_c2_4_a_signal_is_answered_within_a_record(number: int, warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     process = warm.start(PROGRAM, "run", CASE, *changes(*SLOW), "--out", str(path), "--json")
@@ -336,3 +336,30 @@ def test_an_interruption_that_a_library_turns_into_its_error_is_no_bug(
         assert command.main([]) == 1
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_every_command_hears_a_request_to_terminate_as_ctrl_c(
+    number: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Answer requests of other programs and a closed terminal.
+
+    Commands other than runs were killed: a fit lost its best values and left a warning of Python's about semaphores.
+    """
+
+    def work(*, answer: int = 0, **options: object) -> int:
+        os.kill(os.getpid(), number)
+        time.sleep(0.2)
+        return answer
+
+    monkeypatch.setattr(command, "application", work)
+    before = signal.signal(number, signal.SIG_DFL)
+    try:
+        assert command.main([]) == 130
+        assert capsys.readouterr().err == "interrupted\n"
+        assert signal.getsignal(number) == signal.SIG_DFL
+        signal.signal(number, signal.SIG_IGN)  # as nohup does
+        monkeypatch.setattr(command, "application", partial(work, answer=7))
+        assert command.main([]) == 7
+    finally:
+        signal.signal(number, before)
