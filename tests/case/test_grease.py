@@ -13,6 +13,7 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.checks.operating_limits import operating_warnings
 from lambda_core.model.laws.method_inputs import method_inputs
+from lambda_core.results.verdict import limits_of
 
 GREASED = """\
 name = "greased"
@@ -59,3 +60,4 @@ def test_beyond_the_temperatures_of_its_maker_is_a_warning(greased: Path) -> Non
     assert operating_warnings(api.check(greased)) == []
     (said,) = operating_warnings(api.check(greased, ["lubricant.temperature=130 degC"]))
     assert said == ("the grease arcanol-multi2 at 130 degC is outside what its maker gives it for, -30 to 120 degC")
+    assert limits_of(api.check(greased)).oil_limit_degC == pytest.approx(120.0)

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lambda_core.elements.roller import rib
+from lambda_core.elements.roller.line_film import asperity_share
 from lambda_core.elements.roller.rolling import rolling_force, rolling_torque
 
 MODULUS, RADIUS = 226e9, 5e-3
@@ -149,3 +150,13 @@ def test_the_film_of_an_ellipse_long_in_sliding_is_that_of_a_numerical_solution(
     """
     contact = rib.RibContact(3e-3, 0.0, 0.05, 1.965, 0.2188, 0.2188)
     assert rib.rib_film(170.0, contact, speed, 0.0354, 18e-9, MODULUS) == pytest.approx(film, rel=0.2)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("film", "scale", "share"), [(0.9, 1.0, 1.0), (1.4, 1.0, 0.0), (1.4, 0.0, 1.0)])
+def test_a_steep_share_of_asperities_is_all_or_nothing(film: float, scale: float, share: float) -> None:
+    """Take exponents of any size.
+
+    The power of a film parameter above one overflowed, with a warning of numpy's on the terminal.
+    """
+    assert asperity_share(np.float64(film), scale, 1e5) == share

@@ -312,6 +312,13 @@ def test_the_next_point_separates_what_the_data_do_not() -> None:
     assert set(found.worst.weights) == {"a", "b"}
 
 
+@pytest.mark.parametrize("factor", [1.0, 4.0])
+def test_a_second_measurement_tells_as_much_as_the_first(factor: float) -> None:
+    """Widen the new point's error as those of the others."""
+    found = next_point(np.ones((1, 1)), np.ones((1, 1)), [Parameter("a", 1.0, 0.5, 2.0)], factor)
+    assert found.after**-2 - found.before**-2 == pytest.approx(found.before**-2 - 1.0)
+
+
 def test_too_few_points_are_refused() -> None:
     with pytest.raises(ValueError, match="vary fewer parameters or add operating points"):
         fit(C.misra, S.PARAMETERS, Data(np.ones(3), np.ones(3)))

@@ -35,7 +35,7 @@ def test_what_is_left_open_is_as_in_the_case() -> None:
 
 def test_the_sum_is_told_in_the_persons_units() -> None:
     phase = PhaseResult(
-        name="work", share=1.0, speed_rpm=3000.0, equivalent_load_N=2000.0, basic_life_h=21234.0,
+        name="work", share=0.25, speed_rpm=3000.0, equivalent_load_N=2000.0, basic_life_h=21234.0,
         reference_life_h=20123.0, damage=1.0, friction_torque_Nmm=100.0, power_loss_W=31.4, energy_loss_kJ=113.0,
         warnings=["the load P = 2 kN is odd"],
     )  # fmt: skip
@@ -47,7 +47,8 @@ def test_the_sum_is_told_in_the_persons_units() -> None:
     tables, words = cycle_view(found, US, "red")
     table = tables[0]
     assert isinstance(table, Table)
-    assert [column.header for column in table.columns][3] == "P lbf"
+    assert [column.header for column in table.columns][1:4:2] == ["time %", "P lbf"]
+    assert list(table.columns[1].cells) == ["25.0", "100.0"]
     assert list(table.columns[3].cells) == ["449.6", "449.6"]
     assert "20 000 h (ISO/TS 16281)   21 000 h (ISO 281)" in words.plain
     assert "▲ work: the load P = 450 lbf is odd" in words.plain

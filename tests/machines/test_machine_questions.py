@@ -15,6 +15,7 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain.unit_systems import unit_system
+from lambda_core.export.stiffness import stiffness_text
 
 WRONG = """
 name = "wrong"
@@ -90,6 +91,10 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     rows = list(csv.reader(api.write_stiffness(whirl, folder / "k.csv").read_text().splitlines()))
     assert len(rows) == 1 + 2 * 36
     assert float(rows[1][4]) == left["stiffness"][0][0]
+    numbered = {"damping": [[float(10 * i + j) for j in range(6)] for i in range(6)]}
+    skew = whirl.model_copy(update={"bearings": [one.model_copy(update=numbered) for one in whirl.bearings]})
+    second = csv.DictReader(stiffness_text(skew, "csv").splitlines())
+    assert next(row["damping"] for row in second if row["column"] == "y") == "1.0"
     assert "1/min elliptic   7 more beyond 10 times the speed" in whirl.text(80)
     assert f"{len(whirl.critical_speeds) - 1} more beyond 10 times the speed" in " ".join(whirl.text().split())
     assert "Q_max 236 N" in report.text(80)

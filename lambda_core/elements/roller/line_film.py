@@ -9,6 +9,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 
+# Of a power of the film parameter, far beyond what leaves nothing to asperities: steep exponents overflow.
+_LARGEST_LOGARITHM = 600.0
+
 
 def moes_line_film(
     line_load: FloatArray | float,
@@ -171,5 +174,6 @@ def asperity_share(film_parameter: FloatArray | float, scale: float, exponent: f
 
     It is exp(-B Lambda^C) (Zhou and Hoeprich 1991, J. Tribol. 113, 590).
     """
-    found: FloatArray = np.exp(-scale * np.maximum(film_parameter, 0.0) ** exponent)
+    largest = np.exp(_LARGEST_LOGARITHM / max(exponent, 1.0))
+    found: FloatArray = np.exp(-scale * np.minimum(np.maximum(film_parameter, 0.0), largest) ** exponent)
     return found
