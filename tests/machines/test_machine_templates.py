@@ -14,13 +14,14 @@ from lambda_core.model.machine_templates import SHAFTS
 def test_a_template_is_a_machine_that_lives_long_enough(template: str, tmp_path: Path) -> None:
     """Solve each template: loads balance, all limits hold.
 
-    Weight and given loads, to a thousandth, are what the bearings carry along z.
+    Loads and the weight of shaft and inner rings are what the bearings carry along z.
     """
     path = api.init_case("mine", template=template, path=tmp_path / "mine.toml")
     machine, found = api.check(path), api.quasistatic(path)
     assert machine.name == "mine"
     assert not machine.warnings
     assert all(bearing.verdict.met for bearing in found.bearings)
-    loads = machine.loads.reshape(-1, 6)[:, 2].sum() + machine.weight.reshape(-1, 6)[:, 2].sum()
+    rings = sum(one.model.inner_ring.mass for one in machine.bearings) * machine.gravity[2]
+    loads = machine.loads.reshape(-1, 6)[:, 2].sum() + machine.weight.reshape(-1, 6)[:, 2].sum() + rings
     carried = sum(bearing.force_N[2] for bearing in found.bearings)
-    assert carried == pytest.approx(-loads, rel=1e-3)
+    assert carried == pytest.approx(-loads, rel=1e-5)
