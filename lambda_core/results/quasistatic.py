@@ -358,7 +358,7 @@ def bearing_statics(found: Equilibrium, rating: Rating | None, tilt: float) -> d
         "film_um": span(1e6 * channels["film_central"][carrying]),
         "film_parameter": films,
         "bearing_capacitance_nF": finite(1e9 * between_rings(channels["capacitance"])),
-        "capacitance_note": capacitance_note(load, channels["capacitance"]),
+        "capacitance_note": capacitance_note(load, channels["capacitance"], model.elements[:-1]),
         "ring_shapes": _ring_shapes(found),
         "shoulders": edges,
         "contacts": contacts,

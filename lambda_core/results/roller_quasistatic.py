@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
+from lambda_core.discovery.api import registry
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, SolverError
 from lambda_core.domain.lubrication import Lubrication
@@ -45,6 +46,7 @@ from lambda_core.results.limits import ROLLER_TILT
 from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.ring_shape import ring_shape
+from lambda_core.results.roller_catalogues import catalogue_torques, roller_inputs
 from lambda_core.results.summary import capacitance_note
 from lambda_core.results.verdict import Limits, limits_of
 
@@ -146,7 +148,7 @@ def roller_answer(model: RollerModel, solved: SolvedRollers, moving: BearingMode
     return QuasiStatic(
         **roller_statics(model, solved, moving),
         case=model.name,
-        headline=headline_of(model, *state.carried),
+        headline=headline_of(model, state),
         inner_ring_displacement_um=[1e6 * x, 1e6 * y, 1e6 * z],
         axial_play_um=0.0 if bearing.is_conical else 1e6 * bearing.end_play,
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
@@ -177,7 +179,8 @@ def roller_statics(
     told = [*_warnings(model, state, axial, limit), *_shortened(bearing, rating)]
     if moving is not None:
         limits = limits_of_rollers(moving, bearing, (radial, axial), motion.relative)
-        rating = rating.model_copy(update={"limits": limits})
+        asked = roller_inputs(model, state, solved.friction, rating.contamination or 0.0)
+        rating = rating.model_copy(update={"limits": limits, **catalogue_torques(asked, registry().methods)})
         told = list(dict.fromkeys([*told, *operating_warnings(moving, on_shaft=on_shaft)]))
     return {
         "title": model.title,
@@ -265,12 +268,13 @@ def _note(state: RollerEquilibrium, solved: SolvedRollers) -> str:
     return capacitance_note(loads, solved.electric[0].contacts, "roller")
 
 
-def headline_of(model: RollerModel, radial: float, axial: float) -> str:
+def headline_of(model: RollerModel, state: RollerEquilibrium) -> str:
     """Return the headline of a bearing.
 
-    The two lines give its name and its operating point.
+    The two lines give its name and its operating point; thrust against x has a minus.
     """
-    bearing = model.bearing
+    bearing, carried = model.bearing, [float(f"{load:.4g}") for load in state.carried]  # what the balance rounds off
+    radial, axial = carried[0], math.copysign(carried[1], bearing.faces * state.loads[0]) if carried[1] > 0.0 else 0.0
     inner, outer = (f"{speed * _RPM:.5g} rpm" for speed in model.speeds)
     speeds = f"inner ring {inner}, outer ring {outer}" if model.speeds[1] else inner
     return (

@@ -98,7 +98,6 @@ def bearing_lines(one: BearingSummary, width: int | None, units: UnitSystem, alo
         *lines_under("ovality", [_oval(bent, units) for bent in one.bent]),
         line("pressure", named(one, "max_pressure_GPa", units)),
         *_capacitance(one),
-        *([line("", one.capacitance_note)] if one.capacitance_note else []),
         *_currents(one.currents),
         *([headed(one, "support_power_W", units)] if one.support_power_W is not None else []),
         *other_lines(one, units),
@@ -178,12 +177,10 @@ def _force_line(one: BearingSummary, units: UnitSystem, name: str = "") -> str:
 
 
 def _capacitance(one: BearingSummary) -> list[str]:
-    """Return the capacitances or a reason."""
-    found = (one.contact_capacitance_pF, one.capacitance_note, one.bearing_capacitance_nF is not None)
-    if not any(found):
-        return []
-    each, bearing = (shown(one, name) for name in ("contact_capacitance_pF", "bearing_capacitance_nF"))
-    return [line("capacitance", f"contacts {each}", f"bearing {bearing}")]
+    """Return the capacitances, and why some are missing."""
+    known = (("contacts", "contact_capacitance_pF"), ("bearing", "bearing_capacitance_nF"))
+    found = "   ".join(f"{what} {shown(one, name)}" for what, name in known if getattr(one, name))
+    return lines_under("capacitance", [text for text in (found, one.capacitance_note) if text])
 
 
 def _iteration(summary: Summary) -> str:

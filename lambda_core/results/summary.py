@@ -255,7 +255,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     epicyclic = extremes.rolling
     ratio, pressure = chosen.interval.ratio("cage_angle", "inner_angle"), finite(1e-9 * extremes.pressure)
     end = _sample(result, -1)
-    edges = _edges(result)
+    edges, element = _edges(result), "ball" if result.model.get("rollers") is None else "roller"
     second_cage = result.blocks(SECOND_CAGE, start) if result.model["cage"].get("per_row") else ()
     carrying = end["load"] > CARRYING * end["load"].max()
     revolutions = run_interval.change("relative_angle") / (2.0 * math.pi)
@@ -285,7 +285,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         film_parameter=span(end["film_parameter"][carrying]),
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
-        capacitance_note=capacitance_note(end["load"], end["capacitance"]),
+        capacitance_note=capacitance_note(end["load"], end["capacitance"], element),
         currents=currents_of(result, start),
         observed=observed_numbers(result, start),
         events=occurred_events(result),
@@ -443,7 +443,7 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
     ]
 
 
-def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64], element: str = "ball") -> str:
+def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64], element: str) -> str:
     """Explain missing capacitances.
 
     The note tells which contacts have none, shape (element, ring), and so why the bearing may have none.

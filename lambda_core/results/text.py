@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import hours, number
+from lambda_core.domain.number_text import counted, hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, lines_under, wrapped
 from lambda_core.results.band_text import band_text, ends, source_lines, temperature_text
@@ -192,12 +192,12 @@ def statics_lines(found: QuasiStatic, width: int | None, units: UnitSystem, *, i
         *(text for name, text in loads.items() if not is_section or name != "force_N"),
         line(
             "equilibrium",
-            f"{found.loaded_elements} {element}s loaded",
+            f"{counted(found.loaded_elements, element)} loaded",
             f"{named(found, 'max_load_N', units)} ({found.max_load_ring} ring)",
             named(found, "max_pressure_GPa", units),
         ),
         line("inner ring", *_place_with_play(found, units), f"tilt y {tilt_y:z.4f}  z {tilt_z:z.4f} mrad"),
-        *([headed(found, "contact_angle_deg", units)] if is_section else []),
+        *([headed(found, "contact_angle_deg", units)] if is_section and any(found.contact_angle_deg) else []),
         *bent_lines(found.ring_shapes, units),
         *_friction_lines(found, units),
         *rating_lines(found.rating, units, found.reference_life_h_band),

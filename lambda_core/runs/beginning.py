@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lambda_core.analysis.static_point import AlonePoint, StaticPoint
+from lambda_core.domain.number_text import counted
 from lambda_core.model.bearing_model import BearingModel, DofState, TimeFunction
 from lambda_core.results.provenance import Provenance
 from lambda_core.runs.law_blame import naming_laws
@@ -92,7 +93,7 @@ class BegunBearing(Begun):
         """Return a sentence about the equilibrium."""
         found = self.point.answer
         return (
-            f"equilibrium: {found.loaded_elements} {self.point.model.elements} loaded, "
+            f"equilibrium: {counted(found.loaded_elements, self.point.model.elements[:-1])} loaded, "
             f"Q_max {found.max_load_N / 1e3:.2f} kN ({found.max_load_ring} ring), "
             f"p_max {found.max_pressure_GPa:.2f} GPa"
         )

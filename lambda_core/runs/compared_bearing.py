@@ -107,32 +107,17 @@ def _of_balls(point: BearingPoint, case: str, contamination: float | None) -> Co
 
 def _of_rollers(name: str, model: RollerModel, solved: SolvedRollers, contamination: float | None) -> ComparedBearing:
     """Return a bearing with rollers."""
+    from lambda_core.results.roller_catalogues import roller_inputs
     from lambda_core.results.roller_quasistatic import headline_of
 
-    radial, axial = solved.state.carried
     clean, is_given = _clean(contamination, model.contamination, model.bearing.pitch_diameter)
-    inputs = RollerMethodInputs(
-        title=model.title,
-        bearing=model.bearing,
-        oil=model.oil,
-        base_type=model.base_type,
-        radial_load=radial,
-        axial_load=axial,
-        inner_speed=model.speeds[0],
-        outer_speed=model.speeds[1],
-        lubrication=model.lubrication,
-        oil_height=model.friction.oil_height,
-        state=solved.state,
-        friction=solved.friction,
-        contamination=clean,
-    )
     return ComparedBearing(
         bearing=name,
         case=model.name,
         title=model.title,
-        headline=headline_of(model, radial, axial),
+        headline=headline_of(model, solved.state),
         assumptions=model.assumptions,
-        inputs=inputs,
+        inputs=roller_inputs(model, solved.state, solved.friction, clean),
         contamination=clean,
         contamination_given=is_given,
     )

@@ -317,14 +317,10 @@ def _skf(found: Any) -> float | None:
 
     None where the model is not installed or does not apply.
     """
-    from lambda_core.analysis.rating.engineering import rating_of
-    from lambda_core.discovery.api import registry
+    from lambda_core.analysis.static_point import AlonePoint
 
-    if found.context.model.rollers is not None:
-        return None  # SKF's model is asked about balls
-    return rating_of(
-        found, {name: method for name, method in registry().methods.items() if name == "skf"}
-    ).skf_torque_Nmm
+    rating = AlonePoint(found.context.model, found=found).bearing("").rating
+    return None if rating is None else rating.skf_torque_Nmm
 
 
 def stribeck_picture(found: SpeedCurve) -> ViewData:

@@ -102,6 +102,7 @@ class MountedState(Record):
         decimals=FLOATING,
         digits=3,
         group="place",
+        default=None,
     )
     stiffness: list[list[float]] = Field(
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
