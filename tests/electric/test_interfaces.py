@@ -16,6 +16,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.analysis.electric.current_numbers import numbers_of
 from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
@@ -50,6 +51,16 @@ def test_radial_6208() -> None:
     assert not any(limit.read_in_the_original for limit in outcome.limits)
     impedance = outcome.impedance_kOhm
     assert impedance["10000 Hz"] / impedance["100000 Hz"] == pytest.approx(10.0, rel=1e-2)
+
+
+def test_the_voltage_of_a_bearing_is_a_size() -> None:
+    """Compare a rising with a falling edge of the source."""
+    found = [
+        numbers_of(api.electric("6208-axial-1300", ["electric.duration=0.2 ms", f"electric.step.amplitude={volts} V"]))
+        for volts in (20, -20)
+    ]
+    assert found[0].bearing_voltage_V > 0.1
+    assert found[1].bearing_voltage_V == pytest.approx(found[0].bearing_voltage_V, rel=1e-3)
 
 
 def test_run_and_case_agree(combined_run: Result) -> None:
