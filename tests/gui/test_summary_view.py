@@ -1,4 +1,4 @@
-"""Test that results show the digits of their bands."""
+"""Test the summary of a run in the builder."""
 
 from __future__ import annotations
 
@@ -24,3 +24,11 @@ def test_a_torque_with_a_model_band_has_the_digits_that_the_band_leaves(tmp_path
         assert "±" not in line
     for label in ("static safety C0/P0", "viscosity ratio kappa", "cage over inner ring"):  # wider than the others
         assert f"\n{label}  " in one
+
+
+def test_every_warning_and_reason_of_a_run_is_shown(tmp_path: Path) -> None:
+    found = api.run(CASE, SHORT, out=tmp_path / "r.h5").summary()
+    told = {"warnings": ["the oil is thick", "the load is light"], "reasons": ["too short", "too coarse"]}
+    lines = summary_view(found.model_copy(update=told), COLOURS).plain.splitlines()
+    assert [line for line in lines if line.startswith("▲")] == ["▲ the oil is thick", "▲ the load is light"]
+    assert {"  too short", "  too coarse"} <= set(lines)
