@@ -60,7 +60,7 @@ def test_the_voltage_of_a_bearing_is_a_size() -> None:
         for volts in (20, -20)
     ]
     assert found[0].bearing_voltage_V > 0.1
-    assert found[1].bearing_voltage_V == pytest.approx(found[0].bearing_voltage_V, rel=1e-3)
+    assert found[1].bearing_voltage_V == pytest.approx(found[0].bearing_voltage_V, rel=1e-6)
 
 
 def test_run_and_case_agree(combined_run: Result) -> None:
