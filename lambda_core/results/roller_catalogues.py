@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lambda_core.views.method import Method, RollerMethodInputs, evaluate_methods
 
@@ -17,7 +17,7 @@ _TORQUES = {"skf_torque_Nmm": "skf", "schaeffler_torque_Nmm": "schaeffler"}
 
 
 def roller_inputs(
-    model: RollerModel, state: RollerEquilibrium, friction: RollerFriction | None, contamination: float
+    model: RollerModel, state: RollerEquilibrium, friction: RollerFriction | None, contamination: float | None = None
 ) -> RollerMethodInputs:
     """Collect the inputs of comparison methods.
 
@@ -25,8 +25,8 @@ def roller_inputs(
     ----------
     state, friction
         Of its operating point.
-    contamination : float
-        e_C of ISO 281.
+    contamination : float, optional
+        e_C of ISO 281, which lives need.
     """
     radial, axial = state.carried
     return RollerMethodInputs(
@@ -46,7 +46,7 @@ def roller_inputs(
     )
 
 
-def catalogue_torques(inputs: RollerMethodInputs, methods: Mapping[str, Method]) -> dict[str, object]:
+def catalogue_torques(inputs: RollerMethodInputs, methods: Mapping[str, Method]) -> dict[str, Any]:
     """Return fields of a rating: torques [N mm] and notes.
 
     A method that is not installed, or does not answer, has no torque.

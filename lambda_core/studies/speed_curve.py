@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,6 +28,7 @@ from lambda_core.results.record import INTERFACE
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:
+    from lambda_core.analysis.static_point import BearingPoint
     from lambda_core.case.case_io import Source
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
@@ -143,7 +145,7 @@ def stribeck(
         raise UsageError("speeds of a Stribeck curve must be above zero: the axis is logarithmic")
     if (len(given) or points) < 2:
         raise UsageError("a Stribeck curve needs two speeds or more")
-    model_at, of_load = _models(source, changes, bearing, announce)
+    model_at, of_load, own = _models(source, changes, bearing, announce)
     model = model_at(given[0] if given else SLOWEST)
     fastest = FASTEST_FACTOR / (500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter))
     given = given or np.geomspace(SLOWEST, fastest, points).tolist()
@@ -159,7 +161,7 @@ def stribeck(
         torque_Nmm_band=bands,
         band_notes=notes,
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
-        skf_Nmm=[skf for _, skf, _ in found],
+        skf_Nmm=[skf for _, skf, _ in found] if own.rollers is None else _skf_of_rollers(own, given),
         film_parameter=[film for _, _, film in found],
         note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
         + of_load
@@ -169,20 +171,28 @@ def stribeck(
 
 def _models(
     source: Any, changes: tuple[str, ...], bearing: str | None, announce: Callable[[str], None] | None
-) -> tuple[Callable[[float], BearingModel], str]:
+) -> tuple[Callable[[float], BearingModel], str, BearingPoint]:
     """Return a function from speed to model.
 
     The speed is that of the bearing [1/min]. Also return a note about its load: in a machine it stays as it is at the
-    speed of the case, where the loads of a bearing alone are those of its case.
+    speed of the case, where the loads of a bearing alone are those of its case; and the bearing at its point.
     """
+    from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_number
+    from lambda_core.analysis.static_point import static_point
+
     if is_machine(source):
-        from lambda_core.analysis.rotor.bearing_alone import at_speed, bearing_alone
         from lambda_core.analysis.thermal.temperatures import ready
 
-        alone = bearing_alone(ready(source, changes, announce), bearing, announce)
-        return (lambda speed: at_speed(alone, speed * _RPM)), ", load of the machine at t = 0"
+        model = ready(source, changes, announce)
+        own = list(static_point(model, announce).bearings.values())[bearing_number(model, bearing)]
+        alone = own.alone
+        return (lambda speed: at_speed(alone, speed * _RPM)), ", load of the machine at t = 0", own
     refuse_bearing(bearing)
-    return (lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)), ""
+
+    def at(speed: float) -> BearingModel:
+        return ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)
+
+    return at, "", static_point(at(SLOWEST), announce).bearing("")
 
 
 def _bands(
@@ -317,10 +327,29 @@ def _skf(found: Any) -> float | None:
 
     None where the model is not installed or does not apply.
     """
-    from lambda_core.analysis.static_point import AlonePoint
+    from lambda_core.analysis.rating.engineering import rating_of
+    from lambda_core.discovery.api import registry
 
-    rating = AlonePoint(found.context.model, found=found).bearing("").rating
-    return None if rating is None else rating.skf_torque_Nmm
+    if found.context.model.rollers is not None:
+        return None  # theirs follows from their loads alone
+    return rating_of(
+        found, {name: method for name, method in registry().methods.items() if name == "skf"}
+    ).skf_torque_Nmm
+
+
+def _skf_of_rollers(own: BearingPoint, speeds: Sequence[float]) -> list[float | None]:
+    """Return SKF's torque of rollers at every speed [N mm].
+
+    Their loads are those of the point.
+    """
+    from lambda_core.discovery.api import registry
+    from lambda_core.results.roller_catalogues import catalogue_torques, roller_inputs
+
+    model, state = own.rollers, own.solved_rollers.state
+    assert model is not None
+    turning = [replace(model, speeds=(speed * _RPM, model.speeds[1])) for speed in speeds]
+    found = [catalogue_torques(roller_inputs(one, state, None), registry().methods) for one in turning]
+    return [one["skf_torque_Nmm"] for one in found]
 
 
 def stribeck_picture(found: SpeedCurve) -> ViewData:

@@ -55,6 +55,16 @@ def test_the_curve_over_speed_has_the_torque_of_skf() -> None:
     assert found.skf_Nmm[1] == pytest.approx(api.compare(case("SKF NU 208 ECP")).value("skf", "friction", "total"))
 
 
+@pytest.mark.parametrize(("name", "bearing", "speed"), [("motor", "belt", 2950.0), ("gearbox", "left", 1500.0)])
+def test_the_curve_of_a_bearing_on_a_shaft_has_the_torque_of_skf(name: str, bearing: str, speed: float) -> None:
+    """Compare it with that of the point at the same speed; it varies with speed."""
+    path = SHAFT / f"{name}.toml"
+    found = api.stribeck(path, bearing=bearing, speeds_rpm=[0.5 * speed, speed])
+    expected = api.compare(path, bearing=bearing).value("skf", "friction", "total")
+    assert found.skf_Nmm[1] == pytest.approx(expected, rel=1e-9)
+    assert found.skf_Nmm[0] < 0.9 * expected
+
+
 @pytest.mark.parametrize(("axial", "words"), [("-1 kN", "axial -1 kN"), ("1 kN", "axial 1 kN")])
 def test_thrust_has_its_direction(axial: str, words: str) -> None:
     """Write it; both directions read alike."""
