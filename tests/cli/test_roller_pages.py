@@ -57,7 +57,7 @@ def test_the_curve_over_speed_has_the_torque_of_skf() -> None:
 
 @pytest.mark.parametrize(("name", "bearing", "speed"), [("motor", "belt", 2950.0), ("gearbox", "left", 1500.0)])
 def test_the_curve_of_a_bearing_on_a_shaft_has_the_torque_of_skf(name: str, bearing: str, speed: float) -> None:
-    """Compare it with that of the point at the same speed; it varies with speed."""
+    """Compare it at the same speed; it varies with speed."""
     path = SHAFT / f"{name}.toml"
     found = api.stribeck(path, bearing=bearing, speeds_rpm=[0.5 * speed, speed])
     expected = api.compare(path, bearing=bearing).value("skf", "friction", "total")

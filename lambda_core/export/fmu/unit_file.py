@@ -131,8 +131,8 @@ def export_fmu(
         write(task, announce)
     else:
         if announce is not None:
-            announce(f"exporting for {processor} (compiling takes one to five minutes the first time)")
-        _write_apart(task, processor)
+            announce(f"exporting for {processor} (compiling takes one to ten minutes the first time)")
+        _write_apart(task, processor, announce)
     return target
 
 
@@ -207,19 +207,33 @@ def _zip(parts: Mapping[str, bytes], target: Path) -> None:
         part.unlink(missing_ok=True)
 
 
-def _write_apart(task: Mapping[str, Any], processor: str) -> None:
+def _write_apart(task: Mapping[str, Any], processor: str, announce: Callable[[str], None] | None) -> None:
     """Write an FMU in a separate process.
 
-    Numba fixes the processor when it is imported.
+    Numba fixes the processor when it is imported. What the process announces is announced here.
     """
     code = "from lambda_core.export.fmu.unit_file import serve; serve()"
     # A named processor has its own features and no others.
     settings = {_CPU: processor, _FEATURES: ""} if processor != "native" else {}
     clean = {name: value for name, value in os.environ.items() if name not in (_CPU, _FEATURES)}
-    done = subprocess.run(
-        [sys.executable, "-P", "-W", "ignore", "-c", code],
-        input=json.dumps(task), capture_output=True, text=True, env=clean | settings, check=False,
-    )  # fmt: skip
+    command = [sys.executable, "-P", "-W", "ignore", "-c", code]
+    heard, spoken = os.pipe()
+
+    def run() -> subprocess.CompletedProcess[str]:
+        try:
+            return subprocess.run(
+                command, input=json.dumps(task), stdout=spoken, stderr=subprocess.PIPE, text=True, env=clean | settings,
+                check=False,
+            )  # fmt: skip
+        finally:
+            os.close(spoken)  # ends what is heard
+
+    with open(heard, encoding="utf-8") as sentences, ThreadPoolExecutor() as worker:
+        running = worker.submit(run)
+        for sentence in sentences:
+            if announce is not None:
+                announce(sentence.rstrip())
+        done = running.result()
     if done.returncode == 0:
         return
     said = done.stderr.strip() or f"the process that writes it ended with {done.returncode}"
@@ -229,12 +243,12 @@ def _write_apart(task: Mapping[str, Any], processor: str) -> None:
 def serve() -> None:
     """Do one task from standard input.
 
-    It is all the work of a process.
+    It is all the work of a process; what it announces goes to standard output.
     """
     from lambda_core.domain.errors import LambdaError
 
     try:
-        write(json.load(sys.stdin))
+        write(json.load(sys.stdin), lambda text: print(text, flush=True))
     except LambdaError as error:
         print(error, file=sys.stderr)
         raise SystemExit(error.exit_code) from None
