@@ -270,12 +270,12 @@ def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str
 
     Two lines of heads stand above; it has as many columns as there is room for.
     """
-    names = [bearing.name for bearing in report.bearings]
+    names = list(report.bearings)
     first = min(max(map(len, names)), 12)
     shown: list[tuple[int, list[str]]] = []
     used = first
     for head, unit, value, rank in sorted(_COLUMNS, key=lambda column: column[-1]):
-        facts = [fact_in_units((head, value(bearing), unit), units) for bearing in report.bearings]
+        facts = [fact_in_units((head, value(bearing), unit), units) for bearing in report.bearings.values()]
         cells = [head, facts[0][2] if unit else "", *(fact[1] for fact in facts)]
         wide = _GAP - (width < 48) + max(map(len, cells))
         if used + wide > width:

@@ -289,7 +289,7 @@ def _names_below(
 
     They have their axial constraint and the direction of their force on the shaft.
     """
-    forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
+    forces = {name: bearing.force_N for name, bearing in report.bearings.items()} if report is not None else {}
     for bearing in model.bearings:
         label = f"{_held(bearing)} {_way(*forces.get(bearing.name, (0.0, 0.0, 0.0)))}".rstrip()
         column = round(scale.x(bearing.position) - 0.5 * len(label))

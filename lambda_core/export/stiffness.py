@@ -40,14 +40,14 @@ def stiffness_text(found: MachineModes, kind: str) -> str:
                     "stiffness": b.stiffness, "housed_stiffness": b.housed_stiffness,
                     "damping": b.damping, "housed_damping": b.housed_damping,
                 }
-                for b in found.bearings
+                for b in found.bearings.values()
             ],
         }  # fmt: skip
         return json.dumps(data, indent=2) + "\n"
     stream = io.StringIO()
     rows = csv.writer(stream, lineterminator="\n")
     rows.writerow(["bearing", "position_mm", "row", "column", *_MATRICES])
-    for b in found.bearings:
+    for b in found.bearings.values():
         for i, first in enumerate(AXES):
             for j, second in enumerate(AXES):
                 rows.writerow([b.name, b.position_mm, first, second, *(getattr(b, m)[i][j] for m in _MATRICES)])

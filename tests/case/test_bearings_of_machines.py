@@ -43,7 +43,7 @@ def test_each_bearing_has_its_own_oil() -> None:
     thin = {"name": "mineral-vg32", "temperature": "50 degC"}
     mixed = api.quasistatic(machine(bearings={"right": {"lubricant": thin}}))
     shared, other = api.quasistatic(machine()), api.quasistatic(machine(lubricant=thin))
-    by_name = [{bearing.name: bearing.film_um for bearing in found.bearings} for found in (mixed, shared, other)]
+    by_name = [{name: bearing.film_um for name, bearing in found.bearings.items()} for found in (mixed, shared, other)]
     assert by_name[0]["left"] == pytest.approx(by_name[1]["left"], rel=1e-3)
     assert by_name[0]["right"] == pytest.approx(by_name[2]["right"], rel=1e-3)
     assert abs(by_name[2]["right"][0] / by_name[1]["right"][0] - 1.0) > 0.1

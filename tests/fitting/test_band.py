@@ -340,14 +340,14 @@ def test_a_machine_has_the_bands_of_its_bearings() -> None:
     Errors of the same laws are correlated.
     """
     found = api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box")), band=True)
-    each = [one.friction_torque_Nmm_band for one in found.bearings]
+    each = [one.friction_torque_Nmm_band for one in found.bearings.values()]
     assert found.friction_torque_Nmm_band == pytest.approx([sum(ends) for ends in zip(*each, strict=True)])
     assert found.friction_torque_Nmm_band[0] < found.friction_torque_Nmm < found.friction_torque_Nmm_band[1]
-    name = found.bearings[0].name
+    name = next(iter(found.bearings))
     alone = api.model_band(tomllib.loads(shaft_text("geared-shaft", "box")), bearing=name, quantities=TORQUE).band(
         "friction torque"
     )
-    assert alone.around(found.bearings[0].friction_torque_Nmm) == pytest.approx(each[0])
+    assert alone.around(found.bearings[name].friction_torque_Nmm) == pytest.approx(each[0])
 
 
 def test_a_bearing_alone_takes_no_name() -> None:

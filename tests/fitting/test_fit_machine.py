@@ -92,7 +92,7 @@ def test_natural_frequencies_and_stiffness_are_those_of_modes(machine: str, subj
     names = ("natural frequency 2", "right stiffness z")
     frequency, stiffness = subject.values((), (), names, one=False)[0]
     assert frequency == pytest.approx(sorted(mode.frequency_Hz for mode in found.modes)[1], rel=1e-9)
-    assert stiffness == pytest.approx(1e-6 * found.bearings[1].stiffness[2][2], rel=1e-9)
+    assert stiffness == pytest.approx(1e-6 * found.bearings["right"].stiffness[2][2], rel=1e-9)
 
 
 def test_columns_of_one_bearing_need_no_name(machine: str, subject: Subject) -> None:

@@ -67,7 +67,8 @@ def report() -> api.Estimate:
     """
     mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "bodies_share": 0.0, "damping_ratio": 0.0}
     equilibrium = api.MachineEquilibrium(
-        case="box", speed_rpm=3000.0, bearings=[bearing_on_shaft("left", 21.0), bearing_on_shaft("right", 148.0)],
+        case="box", speed_rpm=3000.0,
+        bearings={name: bearing_on_shaft(name, at) for name, at in (("left", 21.0), ("right", 148.0))},
         gears={"wheel": [796.0, 300.0, 213.0]}, system_life_h=4e5, friction_torque_Nmm=122.0, drive_torque_Nm=-47.8,
         shaft_mass_kg=4.4, positions_mm=[0.0, 85.0, 170.0], deflection_um=[[0.0, 0.0, -1.0]] * 2 + [[0.0, -15.0, -2.0]],
         slope_mrad=[[0.0, 0.0]] * 3, cut_positions_mm=[0.0, 85.0, 170.0], shear_N=[[0.0, 0.0]] * 3,
@@ -75,7 +76,7 @@ def report() -> api.Estimate:
         iterations=5, residual=0.0, assumptions=[],
     )  # fmt: skip
     modes = api.MachineModes(
-        case="box", speed_rpm=3000.0, bearings=[],
+        case="box", speed_rpm=3000.0, bearings={},
         critical_speeds=[{"speed_rpm": 40012.0, "direction": 0.0, "kind": "bending", "bodies_share": 0.0}],
         modes=[mode], campbell=[{"speed_rpm": speed, "modes": [mode]} for speed in (0.0, 6000.0)], assumptions=[],
     )  # fmt: skip
@@ -216,7 +217,7 @@ async def test_a_defect_of_one_bearing_and_the_number_of_warnings(work_folder: P
         assert before > 0
         await wait_for(pilot, lambda: f"▲ {before} warning" in head(pilot))
         found = report()
-        found.equilibrium.bearings[0].warnings.extend(["too much", "far too much"])
+        found.equilibrium.bearings["left"].warnings.extend(["too much", "far too much"])
         screen.show_estimate(found, "")
         assert len(derived.warnings()) == before + 2
         await wait_for(pilot, lambda: f"▲ {before + 2} warnings  F8" in head(pilot))

@@ -26,8 +26,8 @@ def test_a_machine_at_rest_has_no_torque_of_all_bearings() -> None:
     rest = found.text()[found.text().index("deflection") :]
     assert not [dash for dash in DASH if dash in rest], rest
     assert "friction torque  none: nothing turns" in " ".join(rest.split("\n")).replace("   ", "  ")
-    unknown = found.bearings[0].model_copy(update={"friction_torque_Nmm": None})
-    changed = {"bearings": [unknown, *found.bearings[1:]], "friction_torque_Nmm": None, "speed_rpm": 3000.0}
+    unknown = found.bearings["left"].model_copy(update={"friction_torque_Nmm": None})
+    changed = {"bearings": found.bearings | {"left": unknown}, "friction_torque_Nmm": None, "speed_rpm": 3000.0}
     assert "unknown: no steady motion was found in left" in found.model_copy(update=changed).text()
 
 

@@ -134,7 +134,7 @@ def test_far_beyond_limits() -> None:
     The meshing force is 106 kN.
     """
     found = api.quasistatic(resolve_machine(tables(gears={"wheel": {"power": "2000 kW"}})))
-    for bearing, static in zip(found.bearings, (19.0, 11.2), strict=True):
+    for bearing, static in zip(found.bearings.values(), (19.0, 11.2), strict=True):
         told = " ".join(bearing.warnings)
         load = np.hypot(*bearing.force_N[1:])
         assert load > 2e3 * static
@@ -147,7 +147,7 @@ def test_far_beyond_limits() -> None:
             assert words in told, (words, told)
         assert "the case tilts" not in told  # rings are held at their poses to be looked at
     lines = found.text().splitlines()
-    assert sum(line.startswith("WARNING ") for line in lines) == sum(len(b.warnings) for b in found.bearings)
+    assert sum(line.startswith("WARNING ") for line in lines) == sum(len(b.warnings) for b in found.bearings.values())
     assert not any(line.split()[1:] == ["0", "0"] for line in lines if line.startswith("L_10h"))  # short is not nothing
 
 

@@ -65,7 +65,7 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     modes = json.loads(capsys.readouterr().out)
     assert main(["quasistatic", case, "--band", "none", *arguments]) == 0
     found = json.loads(capsys.readouterr().out)
-    left, right = found["bearings"]
+    left, right = found["bearings"].values()
     machine = api.check(case)
     wheel = machine.gears["wheel"]
     weight = 9.80665 * (found["shaft_mass_kg"] + sum(one.model.inner_ring.mass for one in machine.bearings))
@@ -92,7 +92,9 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert len(rows) == 1 + 2 * 36
     assert float(rows[1][4]) == left["stiffness"][0][0]
     numbered = {"damping": [[float(10 * i + j) for j in range(6)] for i in range(6)]}
-    skew = whirl.model_copy(update={"bearings": [one.model_copy(update=numbered) for one in whirl.bearings]})
+    skew = whirl.model_copy(
+        update={"bearings": {name: one.model_copy(update=numbered) for name, one in whirl.bearings.items()}}
+    )
     second = csv.DictReader(stiffness_text(skew, "csv").splitlines())
     assert next(row["damping"] for row in second if row["column"] == "y") == "1.0"
     assert "1/min elliptic   7 more beyond 10 times the speed" in whirl.text(80)
@@ -106,8 +108,8 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
         "stiffness": lambda one: [1e-6 * one.stiffness[row][row] for row in range(3)],
         "moment about": lambda one: one.moment_Nm,
     }
-    for one in report.bearings:
-        page = report.of_bearing(one.name).text(80).splitlines()
+    for name, one in report.bearings.items():
+        page = report.of_bearing(name).text(80).splitlines()
         for head, vector in vectors.items():
             said = next(line for line in page if line.startswith(head))
             values = re.findall(r"(?<=[xyz] )-?[\d.]+", said.removeprefix(head))[: len(vector(one))]
@@ -124,7 +126,7 @@ def check_text(report: Any, vectors: dict[str, Callable[[Any], list[float]]]) ->
     lines = report.text(80).splitlines()
     for head, vector in vectors.items():
         first = next(number for number, line in enumerate(lines) if line.startswith(head))
-        expected = zip(*(vector(one) for one in report.bearings), strict=True)
+        expected = zip(*(vector(one) for one in report.bearings.values()), strict=True)
         for offset, values in enumerate(expected):
             said = [float(text) for text in lines[first + offset].split()[-len(values) :]]
             assert said == pytest.approx(list(values), rel=6e-3, abs=5e-5), lines[first + offset]

@@ -20,8 +20,8 @@ def test_a_template_is_a_machine_that_lives_long_enough(template: str, tmp_path:
     machine, found = api.check(path), api.quasistatic(path)
     assert machine.name == "mine"
     assert not machine.warnings
-    assert all(bearing.verdict.met for bearing in found.bearings)
+    assert all(bearing.verdict.met for bearing in found.bearings.values())
     rings = sum(one.model.inner_ring.mass for one in machine.bearings) * machine.gravity[2]
     loads = machine.loads.reshape(-1, 6)[:, 2].sum() + machine.weight.reshape(-1, 6)[:, 2].sum() + rings
-    carried = sum(bearing.force_N[2] for bearing in found.bearings)
+    carried = sum(bearing.force_N[2] for bearing in found.bearings.values())
     assert carried == pytest.approx(-loads, rel=1e-5)

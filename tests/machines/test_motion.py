@@ -295,7 +295,7 @@ def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
     found = api.run(model, out=tmp_path / "run.h5").summary()
     assert found.converged, found.reasons
     assert abs(found.energy_residual) < 1e-3
-    at_rest = {one.name: one for one in api.quasistatic(model).bearings}
+    at_rest = api.quasistatic(model).bearings
     for name, one in found.bearings.items():
         assert abs(np.linalg.norm(one.force_N) / np.linalg.norm(at_rest[name].force_N) - 1.0) < 0.01
         assert one.friction_torque_Nmm == pytest.approx(at_rest[name].friction_torque_Nmm, rel=0.1)

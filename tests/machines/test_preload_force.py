@@ -37,14 +37,14 @@ def _solved(case: dict[str, Any]) -> MachineEquilibrium:
 
 def test_displacements_of_a_preloaded_pair_leave_the_free_gap_out() -> None:
     found = _solved(_pair("100 rpm"))
-    assert [one.displacement_um[0] for one in found.bearings] == pytest.approx([-5.0, 5.0], abs=0.3)
-    assert [one.clearance_um for one in found.bearings] == [None, None]
+    assert [one.displacement_um[0] for one in found.bearings.values()] == pytest.approx([-5.0, 5.0], abs=0.3)
+    assert [one.clearance_um for one in found.bearings.values()] == [None, None]
 
 
 def test_preload_force_is_the_thrust_without_loads() -> None:
     alone, loaded = _solved(_pair("100 rpm")), _solved(_pair("100 rpm", "200 N"))
-    force = [one.preload_force_N for one in loaded.bearings]
-    assert force == pytest.approx([abs(one.axial_load_N) for one in alone.bearings], rel=1e-6)
+    force = [one.preload_force_N for one in loaded.bearings.values()]
+    assert force == pytest.approx([abs(one.axial_load_N) for one in alone.bearings.values()], rel=1e-6)
     assert force[0] is not None
     assert force[0] < abs(loaded.bearing("right").axial_load_N)
 
@@ -60,10 +60,10 @@ def test_lift_off_thrust_unloads_the_opposite_bearing() -> None:
     assert found.lift_off_N / found.preload_force_N == pytest.approx(2.0**1.5, rel=0.03)
     before = _solved(_pair("100 rpm", f"{-0.9 * found.lift_off_N} N"))
     after = _solved(_pair("100 rpm", f"{-1.1 * found.lift_off_N} N"))
-    lifted = [min(abs(one.displacement_um[0]) for one in each.bearings) for each in (before, after)]
+    lifted = [min(abs(one.displacement_um[0]) for one in each.bearings.values()) for each in (before, after)]
     assert lifted[0] > 0.1
-    assert [abs(one.axial_load_N) > 5.0 for one in before.bearings] == [True, True]
-    assert [abs(one.axial_load_N) > 5.0 for one in after.bearings].count(False) == 1
+    assert [abs(one.axial_load_N) > 5.0 for one in before.bearings.values()] == [True, True]
+    assert [abs(one.axial_load_N) > 5.0 for one in after.bearings.values()].count(False) == 1
 
 
 def test_bearings_that_take_thrust_from_both_sides_have_no_preload_force() -> None:
@@ -72,10 +72,10 @@ def test_bearings_that_take_thrust_from_both_sides_have_no_preload_force() -> No
         one |= {"designation": "SKF 6208"}
         del one["preload"], one["takes"]
     found = _solved(case)
-    assert [(one.preload_force_N, one.lift_off_N) for one in found.bearings] == [(None, None)] * 2
-    assert all(one.clearance_um for one in found.bearings)
+    assert [(one.preload_force_N, one.lift_off_N) for one in found.bearings.values()] == [(None, None)] * 2
+    assert all(one.clearance_um for one in found.bearings.values())
 
 
 def test_a_spring_has_its_force_and_no_lift_off() -> None:
     found = _solved(_pair("100 rpm", preload=None, preload_force="300 N"))
-    assert [one.lift_off_N for one in found.bearings] == [None, None]
+    assert [one.lift_off_N for one in found.bearings.values()] == [None, None]

@@ -31,7 +31,7 @@ def machine(**changes: Any) -> dict[str, Any]:
 
 def test_weight_and_load_reach_the_bearing() -> None:
     found = api.quasistatic(machine())
-    (bearing,) = found.bearings
+    (bearing,) = found.bearings.values()
     ring = api.check(machine()).bearings[0].model.inner_ring.mass
     assert bearing.force_N[2] == pytest.approx(2000.0 + (2.0 + ring) * 9.80665, abs=0.01)
     assert "the shaft is rigid" in found.text()
@@ -91,5 +91,5 @@ def test_what_a_rigid_shaft_refuses(changes: dict[str, Any], where: str, words: 
 
 def test_a_stiffness_holds_the_tilts_of_a_self_aligning_bearing() -> None:
     support = {"tilt_y": "1000 N m/rad", "tilt_z": {"motion": "1 mrad"}}
-    (bearing,) = api.quasistatic(machine(bearings=ALIGNING, shaft={"support": support})).bearings
+    (bearing,) = api.quasistatic(machine(bearings=ALIGNING, shaft={"support": support})).bearings.values()
     assert bearing.misalignment_mrad == pytest.approx([0.0, 1.0], abs=1e-3)

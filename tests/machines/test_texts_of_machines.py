@@ -44,7 +44,7 @@ def test_both_ends_of_a_band_have_the_chosen_unit() -> None:
     """Convert the low end, too, which has no unit."""
     found = api.quasistatic(box())
     torque = Band(quantity="friction torque", unit="N mm", value=100.0, low=90.4, high=113.0, contributors=[])
-    bands = {one.name: ModelBand(case="box", coverage=0.9, bands=[torque], left_out=[]) for one in found.bearings}
+    bands = {name: ModelBand(case="box", coverage=0.9, bands=[torque], left_out=[]) for name in found.bearings}
     text = found.with_bands(bands).text(units=US)
     low, high = re.findall(r"^friction torque .*\(model ([\d.]+) \.\. ([\d.]+)\) +of all", text, re.MULTILINE)[0]
     assert float(high) / float(low) == pytest.approx(113.0 / 90.4, rel=0.05)

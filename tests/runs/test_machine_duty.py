@@ -48,7 +48,7 @@ def test_damages_of_every_bearing_add_and_their_lives_join(box: Path) -> None:
         assert found.bearings[name].reference_life_h == pytest.approx(lives[-1], rel=1e-9)
         assert found.bearings[name].phases[0].damage == pytest.approx(0.25 * lives[-1] / each[0], rel=1e-9)
     assert found.system_life_h == pytest.approx(sum(life ** (-10.0 / 9.0) for life in lives) ** -0.9, rel=1e-12)
-    loss = [sum(one.power_loss_W for one in state.bearings) for state in (first, second)]
+    loss = [sum(one.power_loss_W for one in state.bearings.values()) for state in (first, second)]
     assert found.mean_power_loss_W == pytest.approx(0.25 * loss[0] + 0.75 * loss[1], rel=1e-9)
     assert found.energy_loss_kJ == pytest.approx(3.6 * (loss[0] + 3.0 * loss[1]), rel=1e-9)
     assert "system life" in found.text()

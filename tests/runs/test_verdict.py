@@ -102,7 +102,7 @@ def test_an_unknown_level_of_contamination_names_the_nearest() -> None:
 def test_every_bearing_of_a_machine_is_judged() -> None:
     found = api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box")), ["requirements.life=20000 h"])
     assert isinstance(found, MachineEquilibrium)
-    assert [one.verdict.met for one in found.bearings] == [True, True]
+    assert [one.verdict.met for one in found.bearings.values()] == [True, True]
     assert "\nverdict          left MET   right MET\n" in found.text()
     assert found.text().count("\nverdict          MET: L_nmrh") == 2
 
@@ -118,15 +118,15 @@ def test_one_bearing_compare_and_machines_assume_the_same_contamination_and_say_
     words = "e_C 0.5: normal cleanliness, the case gives none (life.contamination)"
     rating, other, machine = api.quasistatic(case).rating, api.compare(case), api.quasistatic(shaft)  # type: ignore[union-attr]
     assert rating is not None
-    assert (rating.contamination, other.contamination, machine.bearings[0].rating.contamination) == (0.5, 0.5, 0.5)  # type: ignore[union-attr]
+    assert (rating.contamination, other.contamination, machine.bearings["a"].rating.contamination) == (0.5, 0.5, 0.5)  # type: ignore[union-attr]
     found = other.value("iso-281", "life", "modified rating life, hours")
     assert rating.modified_life_h == pytest.approx(found, rel=1e-9)
-    assert all(one.rating.modified_life_h and not one.rating.contamination_given for one in machine.bearings)  # type: ignore[union-attr]
+    assert all(one.rating.modified_life_h and not one.rating.contamination_given for one in machine.bearings.values())  # type: ignore[union-attr]
     assert words in api.quasistatic(case).text()
     assert f"modified lives: {words}" in other.text()
     assert f"with {words}" in machine.text()
     shafted = api.compare(shaft, bearing="a").value("iso-281", "life", "modified rating life, hours")
-    assert shafted == pytest.approx(machine.bearings[0].rating.modified_life_h, rel=1e-6)  # type: ignore[union-attr]
+    assert shafted == pytest.approx(machine.bearings["a"].rating.modified_life_h, rel=1e-6)  # type: ignore[union-attr]
 
 
 def test_compare_follows_the_contamination_of_the_case() -> None:

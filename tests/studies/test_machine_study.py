@@ -42,7 +42,7 @@ def test_a_study_of_a_machine_says_what_its_points_say(box: Path, tmp_path: Path
     assert first["left.radial_load_N"] == pytest.approx(at.bearing("left").radial_load_N, rel=1e-9)
     assert first["right.reference_life_h"] == pytest.approx(at.bearing("right").rating.reference_life_h)
     assert first["right.friction_torque_Nmm"] == pytest.approx(at.bearing("right").friction_torque_Nmm, rel=1e-9)
-    assert first["power_loss_W"] == pytest.approx(sum(one.power_loss_W for one in at.bearings), rel=1e-9)
+    assert first["power_loss_W"] == pytest.approx(sum(one.power_loss_W for one in at.bearings.values()), rel=1e-9)
     assert first["left.stiffness_N_per_um.x"] == pytest.approx(1e-6 * at.bearing("left").stiffness[0][0], rel=1e-9)
     parts = [value for name, value in first.items() if name.startswith("left.friction_breakdown_Nmm.")]
     assert sum(parts) == pytest.approx(at.bearing("left").friction_torque_Nmm, rel=1e-9)

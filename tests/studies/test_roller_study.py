@@ -61,6 +61,6 @@ def test_a_duty_cycle_of_rollers_has_their_mean_load(tmp_path: Path) -> None:
 
 def test_the_life_of_a_shaft_has_the_slopes_of_balls_and_rollers() -> None:
     found = api.quasistatic(MOTOR)
-    lives = {one.name: one.rating.reference_life_h for one in found.bearings}
+    lives = {name: one.rating.reference_life_h for name, one in found.bearings.items()}
     shares = {name: found.system_life_h / life for name, life in lives.items()}
     assert shares["fan"] ** (10 / 9) + shares["belt"] ** (9 / 8) == pytest.approx(1.0, rel=1e-6)

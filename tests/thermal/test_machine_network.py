@@ -209,14 +209,14 @@ def test_oil_of_one_bearing_takes_its_heat_along() -> None:
 def test_computed_temperatures_reach_the_equilibrium(warm: SteadyTemperatures, ready: MachineModel) -> None:
     found, said = warm, list[str]()
     static = api.quasistatic(pair(**COMPUTED), announce=said.append)
-    torques = [bearing.friction_torque_Nmm for bearing in static.bearings]
+    torques = [bearing.friction_torque_Nmm for bearing in static.bearings.values()]
     expected = [one.state.friction_torque_Nmm for one in found.bearings.values()]
     assert torques == pytest.approx(expected, rel=1e-4)
-    assert [bearing.clearance_um for bearing in static.bearings] == pytest.approx(
+    assert [bearing.clearance_um for bearing in static.bearings.values()] == pytest.approx(
         [one.state.clearance_um for one in found.bearings.values()], abs=5e-3
     )
     assert any("temperatures found by the thermal network (harris): left inner ring" in line for line in said)
-    found_ready = [bearing.friction_torque_Nmm for bearing in api.quasistatic(ready).bearings]
+    found_ready = [bearing.friction_torque_Nmm for bearing in api.quasistatic(ready).bearings.values()]
     assert found_ready == pytest.approx(torques, rel=1e-6)
 
 

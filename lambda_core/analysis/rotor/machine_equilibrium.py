@@ -157,7 +157,7 @@ class MachineEquilibrium(StaticAnswer):
 
     speed_rpm: float = Field(description="of the shaft")
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
-    bearings: list[BearingEquilibrium] = Field(description="from left to right")
+    bearings: dict[str, BearingEquilibrium] = Field(description="each bearing by its name, from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
     springs: dict[str, list[float]] = Field(
         default={}, description="force of each spring on the body of its place: x, y, z [N]"
@@ -186,7 +186,7 @@ class MachineEquilibrium(StaticAnswer):
     @property
     def each(self) -> Mapping[str, BearingEquilibrium]:
         """Every bearing by its name, from left to right."""
-        return {one.name: one for one in self.bearings}
+        return self.bearings
 
     def bearing(self, name: str) -> BearingEquilibrium:
         """Return one bearing by its name.
@@ -200,8 +200,8 @@ class MachineEquilibrium(StaticAnswer):
 
         An only bearing needs no name; UsageError where a name is needed, or nothing has it.
         """
-        number = number_among(list(self.each), name, self.case)
-        one = self.bearings[number]
+        number = number_among(list(self.bearings), name, self.case)
+        one = list(self.bearings.values())[number]
         mounted: MountedBearing | None = None if self._model is None else self._model.bearings[number]
         found = MountedQuasiStatic(
             **dict(one),
@@ -226,20 +226,23 @@ class MachineEquilibrium(StaticAnswer):
 
         Those of a bearing begin with its name.
         """
-        return [*self.warnings, *(f"{one.name}: {warning}" for one in self.bearings for warning in one.warnings)]
+        return [
+            *self.warnings,
+            *(f"{one.name}: {warning}" for one in self.bearings.values() for warning in one.warnings),
+        ]
 
     def preloaded(self, found: Mapping[str, Preload]) -> Self:
         """Return the same with the preload of its bearings."""
-        each = [
-            one.model_copy(update={"preload_force_N": own.force, "lift_off_N": own.lift_off}) if own else one
-            for one, own in ((one, found.get(one.name)) for one in self.bearings)
-        ]
+        each = {
+            name: one.model_copy(update={"preload_force_N": own.force, "lift_off_N": own.lift_off}) if own else one
+            for name, one, own in ((name, one, found.get(name)) for name, one in self.bearings.items())
+        }
         return self.model_copy(update={"bearings": each})
 
     def with_bands(self, bands: Mapping[str, ModelBand]) -> Self:
         """Return the same with the model bands of its bearings."""
-        each = [one.with_band(bands[one.name]) for one in self.bearings]
-        torque = sum_of_bands([one.friction_torque_Nmm_band for one in each])
+        each = {name: one.with_band(bands[name]) for name, one in self.bearings.items()}
+        torque = sum_of_bands([one.friction_torque_Nmm_band for one in each.values()])
         return self.model_copy(update={"bearings": each, "friction_torque_Nmm_band": torque})
 
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
@@ -288,15 +291,15 @@ class MachineEquilibrium(StaticAnswer):
         UsageError
             When xarray is not installed; it comes with the extra "data".
         """
-        data, labels = declared_numbers({bearing.name: bearing for bearing in self.bearings}, "bearing")
-        lives, _ = declared_numbers({bearing.name: bearing.rating for bearing in self.bearings}, "bearing")
+        data, labels = declared_numbers(self.bearings, "bearing")
+        lives, _ = declared_numbers({name: bearing.rating for name, bearing in self.bearings.items()}, "bearing")
         data |= lives
         data["deflection_um"] = (("position", "xyz"), np.array(self.deflection_um), {"units": "um"})
         return dataset(data, labels | {"position": self.positions_mm}, {"case": self.case, "speed_rpm": self.speed_rpm})
 
     def __repr__(self) -> str:
         """Return case, speed and the loads of the bearings."""
-        loads = ", ".join(f"{one.name} {one.radial_load_N:.4g} N" for one in self.bearings)
+        loads = ", ".join(f"{name} {one.radial_load_N:.4g} N" for name, one in self.bearings.items())
         return f"<MachineEquilibrium {self.case}, {self.speed_rpm:.5g} 1/min, radial loads {loads}>"
 
 
@@ -315,7 +318,7 @@ def equilibrium_of(point: MachinePoint) -> MachineEquilibrium:
     return MachineEquilibrium(
         case=model.name,
         speed_rpm=rpm,
-        bearings=bearings,
+        bearings={one.name: one for one in bearings},
         gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
         springs={
             **{s.name: _listed(-(s.stiffness @ stretch(model, rows, s) @ state.motions)[:3]) for s in model.springs},

@@ -88,7 +88,7 @@ class MachineModes(Answer):
     case: str = Field(description="name of the case")
     speed_rpm: float = Field(description="of the shaft")
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the matrices")
-    bearings: list[BearingMatrices] = Field(description="from left to right")
+    bearings: dict[str, BearingMatrices] = Field(description="each bearing by its name, from left to right")
     critical_speeds: list[CriticalSpeed] = Field(description="at which the shaft moves across its axis")
     modes: list[ModeAtSpeed] = Field(description="natural frequencies at this speed, damped by the bearings")
     campbell: list[CampbellRow] = Field(description="natural frequencies over speed, undamped")
@@ -150,14 +150,14 @@ def modes_of(model: MachineModel, state: MachineState) -> MachineModes:
     return MachineModes(
         case=model.name,
         speed_rpm=30.0 / math.pi * model.speed,
-        bearings=[
-            BearingMatrices(
+        bearings={
+            bearing.name: BearingMatrices(
                 name=bearing.name, title=bearing.model.title, position_mm=1e3 * bearing.position,
                 force_N=reaction[:3].tolist(), stiffness=six(own), housed_stiffness=six(housed),
                 damping=damping.tolist(), housed_damping=in_housing.tolist(),
             )
             for bearing, reaction, own, housed, damping, in_housing in matrices
-        ],
+        },
         critical_speeds=[
             CriticalSpeed(
                 speed_rpm=30.0 / math.pi * mode.frequency, direction=mode.direction, kind=mode.kind,

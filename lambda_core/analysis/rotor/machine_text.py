@@ -50,7 +50,7 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
 
 def _machine_lines(found: MachineEquilibrium, width: int | None, units: UnitSystem) -> list[str]:
     """Return what holds for all bearings and for the shaft."""
-    forces = quantities(type(found.bearings[0]))["force_N"]
+    forces = quantities(type(next(iter(found.bearings.values()))))["force_N"]
     own = [text for text in found.assumptions if not found.assumed(text)[0]]
     rest = f"and {len(found.assumptions) - len(own)} of the bearings and their laws: lambda-bearing check, --json"
     tooth = ("F_t", "F_r", "F_a")
@@ -62,8 +62,11 @@ def _machine_lines(found: MachineEquilibrium, width: int | None, units: UnitSyst
     ]  # fmt: skip
     return [
         f"{found.case}, {found.speed_rpm:.5g} 1/min",
-        *verdict_line({one.name: one.verdict for one in found.bearings}),
-        *(line(forces.column, by_axis(forces, one.force_N, units), f"of {one.name}") for one in found.bearings),
+        *verdict_line({name: one.verdict for name, one in found.bearings.items()}),
+        *(
+            line(forces.column, by_axis(forces, one.force_N, units), f"of {name}")
+            for name, one in found.bearings.items()
+        ),
         *parts,
         headed(found, "drive_torque_Nm", units),
         *_loss_lines(found, units),
@@ -84,15 +87,15 @@ def _loss_lines(found: MachineEquilibrium, units: UnitSystem) -> list[str]:
 
     Bearings whose torque is unknown have their names here.
     """
-    facts = quantities(type(found.bearings[0]))
+    facts = quantities(type(next(iter(found.bearings.values()))))
     torque, loss = facts["friction_torque_Nmm"].column, facts["power_loss_W"]
     if found.speed_rpm == 0.0:
         return [line(torque, _AT_REST)]
-    unknown = [one.name for one in found.bearings if one.friction_torque_Nmm is None]
+    unknown = [name for name, one in found.bearings.items() if one.friction_torque_Nmm is None]
     if unknown:
         return [line(torque, f"unknown: no steady motion was found in {', '.join(unknown)}")]
-    power = total(one.power_loss_W for one in found.bearings)
-    ends = sum_of_bands([one.power_loss_W_band for one in found.bearings])
+    power = total(one.power_loss_W for one in found.bearings.values())
+    ends = sum_of_bands([one.power_loss_W_band for one in found.bearings.values()])
     return [
         line(torque, shown(found, "friction_torque_Nmm", units), "of all bearings"),
         line(loss.column, banded_text(loss, power, ends, units), "of all bearings"),
@@ -145,11 +148,11 @@ def _matrices(found: MachineModes, units: UnitSystem) -> list[str]:
     """
     if not found.bearings:
         return []
-    rows = [("", [one.name for one in found.bearings])]
+    rows = [("", list(found.bearings))]
     for field, label, unit, factor in _MATRICES:
         for k, axis in enumerate("xyz"):
             head = f"{label} x {units.unit(unit)}" if axis == "x" else f"  {axis}"
-            values = (units.value(factor * getattr(one, field)[k][k], unit) for one in found.bearings)
+            values = (units.value(factor * getattr(one, field)[k][k], unit) for one in found.bearings.values())
             rows.append((head, [digits(value, 3) for value in values]))
     wide = max(_COLUMN, *(2 + len(cell) for _, cells in rows for cell in cells))
     return [*(f"{head:<{_HEAD}}" + "".join(f"{cell:>{wide}}" for cell in cells) for head, cells in rows), ""]

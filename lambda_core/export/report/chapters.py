@@ -209,11 +209,11 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
             loads=(one.radial_load_N, one.axial_load_N),
             units=units,
         )
-        for one, seat in zip(found.bearings, model.bearings, strict=True)
+        for one, seat in zip(found.bearings.values(), model.bearings, strict=True)
     )
     sizes = {one.name: _size(plain(one.model.geometry)) for one in model.bearings}
     return Chapter(
-        kind="case", title=f"{model.name}: {' + '.join(one.title.split(' (')[0] for one in found.bearings)}",
+        kind="case", title=f"{model.name}: {' + '.join(one.title.split(' (')[0] for one in found.bearings.values())}",
         subtitle=f"{found.speed_rpm:.5g} 1/min, quasi-static at t = 0", state="equilibrium found", good=True,
         bearings=parts, warnings=_sentences(found.warned(), units),
         sketch=shaft_sketch(machine_data(model), sizes, units),

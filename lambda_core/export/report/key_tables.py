@@ -210,7 +210,7 @@ def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Tabl
     run : Summary, optional
         Of a run: friction and losses are its averages.
     """
-    each = found.bearings
+    each = list(found.bearings.values())
     moving = [run.bearings[one.name] for one in each] if run is not None else each
     torque = (run if run is not None else found).friction_torque_Nmm
     power = run.power_loss_W if run is not None else total(one.power_loss_W for one in each)
@@ -262,7 +262,7 @@ def machine_reactions(found: Any, units: UnitSystem = SI) -> Table:
             *(rounded(units.value(value, "N")) for value in one.force_N),
             *(rounded(units.value(value, "N m")) for value in one.moment_Nm),
         )
-        for one in found.bearings
+        for one in found.bearings.values()
     ]
     rows += [
         (f"gear {name}: F_t, F_r, F_a", *(rounded(units.value(value, "N")) for value in forces), "", "")

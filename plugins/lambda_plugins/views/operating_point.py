@@ -17,7 +17,7 @@ _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "
 
 def _source(found: Any) -> str:
     return f"{found.case}   {found.speed_rpm:.5g} 1/min   " + ", ".join(
-        f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in found.bearings
+        f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in found.bearings.values()
     )
 
 
@@ -32,7 +32,7 @@ def deflection(machine: MachineData, options: Options) -> ViewData:
     along = Axis("position", "mm", low=min(0.0, 1e3 * model.outline[0][0]), high=1e3 * model.outline[-1][1])
     places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
     moved, moments = np.array(report.deflection_um), np.array(report.bending_moment_Nm)
-    supports = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings)
+    supports = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings.values())
     bare = tuple(Mark("", mark.value, "x") for mark in supports)
     drawn: Literal["line", "points"] = "line" if cuts.size else "points"
     panels = [
@@ -82,10 +82,10 @@ def _drawing(model: Any, report: Any) -> Panel:
     if model.load_places:
         spots = np.array([1e3 * x for _, x in model.load_places])
         series.append(Series("loads", spots, np.zeros(spots.size), "points", "ball"))
-    x = np.array([bearing.position_mm for bearing in report.bearings])
-    forces = np.array([bearing.force_N for bearing in report.bearings])
+    x = np.array([bearing.position_mm for bearing in report.bearings.values()])
+    forces = np.array([bearing.force_N for bearing in report.bearings.values()])
     arrows = Arrows("reactions", "N", x, np.zeros(x.size), forces[:, 0], forces[:, 2])
-    marks = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings)
+    marks = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings.values())
     return Panel(
         "shaft and bearings", Axis("position", "mm"), Axis("radius", "mm"), tuple(series), marks,
         arrows=arrows, shape="plane",
