@@ -23,16 +23,18 @@ from lambda_core import api
 from lambda_core.analysis.band import effects
 from lambda_core.analysis.band.changed import is_of_laws, with_value
 from lambda_core.analysis.band.graded import graded_parameters
-from lambda_core.analysis.band.model_band import Effect, band_around
+from lambda_core.analysis.band.model_band import Effect, band_around, bands_or_reason
 from lambda_core.analysis.band.neighbours import interpolated, places_of, spread_out
 from lambda_core.analysis.band.over_points import bands_over
 from lambda_core.analysis.rating.engineering import rating_of
+from lambda_core.analysis.static_point import static_point
 from lambda_core.case.case_io import validate_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError, SolverError, UsageError
 from lambda_core.domain.number_text import rounded
+from lambda_core.domain.time_limit import time_limit
 from lambda_core.export.report.band_table import model_bands
 from lambda_core.export.report.study_points import study_points
 from lambda_core.fitting.measurements import parse_measurements
@@ -679,6 +681,23 @@ def test_a_band_takes_few_iterations_where_unloaded_balls_change_their_motion(mo
     assert len(done[True]) + len(done[False]) <= 44
     assert sum(done[False]) <= 550
     assert sum(done[True]) <= 500
+
+
+def test_a_band_is_left_out_behind_the_limit_of_wall_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give up a run's band, which took seconds past max_wall."""
+    asked: list[int] = []
+    solve_near = effects.solve_near
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        asked.append(1)
+        return solve_near(*arguments, **options)
+
+    monkeypatch.setattr(effects, "solve_near", counted)
+    with time_limit(0.0):
+        found = bands_or_reason(static_point(api.check("6208-axial-1300"))).bearings[""]
+    assert found.bands == []
+    assert found.left_out[0].startswith("no model band: 6208-axial-1300: the model band did not end within the limit")
+    assert len(asked) <= 2
 
 
 def test_a_band_is_given_up_where_changes_have_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:

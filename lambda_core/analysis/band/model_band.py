@@ -10,7 +10,7 @@ import numpy as np
 
 from lambda_core.analysis.band.effects import Effect, Effects
 from lambda_core.analysis.band.readings import READ, UNITS_OF
-from lambda_core.analysis.band.temperature_effects import GIVEN, LOSS, BearingEffects, following
+from lambda_core.analysis.band.temperature_effects import GIVEN, LOSS, BearingEffects, following, in_time
 from lambda_core.analysis.static_point import LoadedBearing, StaticPoint, static_point
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
@@ -206,7 +206,7 @@ def _effects(
     At rest there is no loss, and temperatures have no band.
     """
     if found is None or any(LOSS not in one.names for one in each):
-        return [list(one.all()) for one in each], []
+        return [list(in_time(one)) for one in each], []
     return following(found, each, labels)
 
 

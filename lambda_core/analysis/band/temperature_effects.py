@@ -17,6 +17,7 @@ from lambda_core.analysis.band.graded import NetworkRange, network_ranges
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.time_limit import check_time
 
 LOSS = "power loss"  # result by which laws and ranges move temperatures
 GIVEN = ("lubricant.temperature",)  # its range is that of a temperature that is given
@@ -44,6 +45,16 @@ class BearingEffects(Protocol):
 
     def values_at_all_positions(self) -> FloatArray:
         """Return the results, averaged over all positions."""
+
+
+def in_time(one: BearingEffects) -> Iterator[Effect]:
+    """Yield effects up to the limit of wall time.
+
+    Behind it a SolverError leaves the band out.
+    """
+    for effect in one.all():
+        check_time(f"{one.case}: the model band")
+        yield effect
 
 
 @dataclass(frozen=True)
@@ -106,7 +117,7 @@ def _by_losses(found: FoundTemperatures, each: Sequence[BearingEffects], labels:
     warming = found.by_loss()
     groups: dict[tuple[str, int], dict[int, Effect]] = {}
     for number, one in enumerate(each):
-        for effect in one.all():
+        for effect in in_time(one):
             is_own = effect.name.startswith(_OF_ONE_BEARING) and labels[number]
             name = f"{labels[number]}: {effect.name}" if is_own else effect.name
             groups.setdefault((name, len(effect.alternatives)), {})[number] = effect
