@@ -216,7 +216,8 @@ def _read(folder: Traversable, name: str) -> MeasuredSeries:
     try:
         found = MeasuredSeries(**{**tables, "name": name.removesuffix(".toml")})
     except ValidationError as error:
-        raise CaseError(name, [Problem(".".join(map(str, e["loc"])), _mistake(e)) for e in error.errors()]) from None
+        mistakes = {str(one["loc"][0]): _mistake(one) for one in error.errors()}  # one of each entry
+        raise CaseError(name, [Problem(*mistake) for mistake in mistakes.items()]) from None
     files_of_case: list[Traversable] = [folder.joinpath(_CASES).joinpath(name)] if folder == _own_folder() else []
     if found.case and isinstance(found.case, str):
         files_of_case.append(folder.joinpath(found.case))
@@ -230,7 +231,7 @@ def _mistake(error: Mapping[str, Any]) -> str:
         return "is required: write a text"
     if error["type"] == "extra_forbidden":
         return unknown_name("entry", error["loc"][-1], MeasuredSeries.model_fields)
-    return str(error["msg"])
+    return "must be the name of a case, or its tables" if error["loc"][0] == "case" else "must be a text"
 
 
 def _load(name: str) -> _Loaded:

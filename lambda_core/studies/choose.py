@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import Field
 
 from lambda_core.catalogue.protocol import BearingRow, RollerRow
-from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.errors import CaseError, LambdaError, UsageError, unknown_name
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import parse, show
@@ -158,7 +158,7 @@ def choose(
     Raises
     ------
     UsageError
-        For a value without a unit, or an unknown kind.
+        For a value without a unit, or an unknown kind or maker.
     CaseError
         For an unknown oil, a value that is out of range, or a level of contamination that there is none of.
     """
@@ -181,10 +181,10 @@ def choose(
     }
     read_case({"name": "choice", "bearing": {"designation": "any"}, **shared})  # mistakes, once for all candidates
     with closing(registry().catalogue()) as catalogue:
-        rows: list[AnyRow] = [
-            row for row in catalogue.bearings(_words(maker), _ALL) if kind is None or row.kind == kind
-        ]
-        rows += [row for row in catalogue.rollers() if is_of_kind(row, kind) and _is_from(row, maker)]
+        every: list[AnyRow] = [*catalogue.bearings("", _ALL), *catalogue.rollers()]
+        rows = [row for row in every if _is_from(row, maker) and _is_of_kind(row, kind)]
+        if maker is not None and not any(_is_from(row, maker) for row in every):
+            raise UsageError(unknown_name("maker", maker, sorted({row.maker for row in every})))
         left: Counter[str] = Counter()
         fitting = []
         viscosity = _viscosity(rows, shared, announce) if contamination is not None else None
@@ -203,12 +203,12 @@ def choose(
     return Choice(question=wanted.question(oil, temperature), candidates=candidates[:limit], left_out=dict(left))
 
 
-def _is_from(row: RollerRow, maker: str | None) -> bool:
+def _is_of_kind(row: AnyRow, kind: str | None) -> bool:
+    return is_of_kind(row, kind) if isinstance(row, RollerRow) else kind in (None, row.kind)
+
+
+def _is_from(row: AnyRow, maker: str | None) -> bool:
     return maker is None or row.maker.upper() == maker.upper()
-
-
-def _words(maker: str | None) -> str:
-    return "" if maker is None else f"maker={maker}"
 
 
 class _Wanted:
@@ -370,6 +370,8 @@ def _candidate(row: AnyRow, shared: dict[str, Any], announce: Callable[[str], No
     try:
         found = quasistatic(_case(row, shared), announce=announce)
     except LambdaError as error:
+        if isinstance(error, CaseError) and any(problem.where == "lubricant.name" for problem in error.problems):
+            raise  # the same of all bearings
         nothing: dict[str, Any] = dict.fromkeys(
             ("basic_life_h", "life_h", "static_safety", "speed_share", "friction_torque_Nmm", "power_loss_W")
         )

@@ -144,12 +144,12 @@ def _cycle(pick: random.Random, machine: dict[str, Any], folder: Path) -> tuple[
 
 
 def _fit(pick: random.Random, machine: dict[str, Any], folder: Path) -> tuple[str, ...]:
-    (folder / "rig.csv").write_bytes(_spoilt(_MEASURED, pick))
+    (folder / "rig.csv").write_bytes(spoilt(_MEASURED, pick))
     return ("fit", "6208-axial-1300", "rig.csv", "--vary", "loss_factor")
 
 
 def _series(pick: random.Random, machine: dict[str, Any], folder: Path) -> tuple[str, ...]:
-    (folder / "volts.csv").write_bytes(_spoilt(_SERIES, pick))
+    (folder / "volts.csv").write_bytes(spoilt(_SERIES, pick))
     (folder / "case.toml").write_text(
         toml({**machines()[1], "electric": {"duration": "1 ms", "series": {"file": "volts.csv"}}})
     )
@@ -161,7 +161,7 @@ _WRITERS: dict[str, Callable[[random.Random, dict[str, Any], Path], tuple[str, .
 }  # fmt: skip
 
 
-def _spoilt(text: str, pick: random.Random) -> bytes:
+def spoilt(text: str, pick: random.Random) -> bytes:
     """Return a table with one fault.
 
     In a cell, a line or some bytes.

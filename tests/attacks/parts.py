@@ -11,7 +11,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.attacks import cases, damage, disks, guests, hostile, machines, points, soak, stores, sweeps, visitors
+from tests.attacks import (
+    cases,
+    damage,
+    disks,
+    guests,
+    hostile,
+    machines,
+    points,
+    questions,
+    soak,
+    stores,
+    sweeps,
+    visitors,
+)
 from tests.attacks.damage import line
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, attempt
@@ -59,7 +72,8 @@ PARTS = {
         Part("corruption_of_machines", "damaged results of machines", 100, damage.corrupted),
         Part("races_of_machines", "two runs of a machine on one output", 20, damage.race),
         Part("machines", "one hostile value in a machine, circuit, network, duty cycle, fit", 1000, machines.hostile),
-        Part("calls", "calls of the Python API with one hostile argument", 300, machines.call),
+        Part("questions", "hostile options and files of db choose, measured, fit and FMUs", 1000, questions.question),
+        Part("calls", "calls of the Python API with one hostile argument", 2000, machines.call),
     )
 }
 

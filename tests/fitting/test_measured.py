@@ -156,6 +156,22 @@ def test_a_description_without_its_entries_says_what_is_missing(tmp_path: Path) 
         api.compare_measured([str(tmp_path / "rig.toml")])
 
 
+def test_an_entry_of_another_type_is_told_in_one_line(tmp_path: Path) -> None:
+    """Say what to write.
+
+    Each type that would do had a line of pydantic's own, under the place "case.dict[str,any]".
+    """
+    (tmp_path / "rig.toml").write_text(
+        'title = 5\ncase = 7\nsource = "s"\nlicence = "l"\nhow_read = "h"\nuncertainty = "u"\n'
+    )
+    with pytest.raises(CaseError) as caught:
+        api.compare_measured([str(tmp_path / "rig.toml")])
+    assert [(one.where, one.message) for one in caught.value.problems] == [
+        ("title", "must be a text"),
+        ("case", "must be the name of a case, or its tables"),
+    ]
+
+
 def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["measured", "list"]) == 0
     text = capsys.readouterr().out

@@ -47,6 +47,7 @@ def test_given_cleanliness_makes_modified_lives_count(capsys: pytest.CaptureFixt
         ({"life": "-1 h"}, "requirements.life +-1 h: must be greater than 0 h"),
         ({"static_safety": -1.0}, "requirements.static_safety +-1.0: must be greater than 0"),
         ({"temperature": "-300 degC"}, "at or below absolute zero"),
+        ({"oil": "mineral-vg69"}, 'lubricant.name +"mineral-vg69" is not a known lubricant; nearest: mineral-vg68'),
         ({"limit": 0}, "limit = 0 is not allowed: give a whole number, at least 1"),
     ],
 )
@@ -58,6 +59,7 @@ def test_values_out_of_range_are_refused_once_and_before_the_search(changes: dic
 def test_what_cannot_be_asked_is_named() -> None:
     for changes, words in (
         ({"kind": "deep grove"}, "nearest: deep groove"),
+        ({"maker": "SFK"}, '"SFK" is not a known maker; nearest: SKF'),
         ({"radial": "5"}, 'write "5 N"'),
         ({"radial": "0 N", "axial": "0 N"}, "give a radial or an axial one"),
     ):
