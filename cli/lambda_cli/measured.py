@@ -10,6 +10,7 @@ import typer
 
 from lambda_cli.options import BandOption, Bands, ForceOption, JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
+from lambda_core.domain.errors import PartialResultError
 from lambda_core.domain.wrapping import wrapped
 
 app = typer.Typer(no_args_is_help=True, help="Compare measured series with the program.")
@@ -66,3 +67,5 @@ def compare(
         typer.echo(found.model_dump_json(indent=2))
     else:
         typer.echo("\n".join(wrapped(found.text().splitlines(), columns())))
+    if missing := [one.series.name for one in found.compared if names and one.reason and one.series.case]:
+        raise PartialResultError(f"asked for and not computed: {', '.join(missing)}")

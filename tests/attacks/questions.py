@@ -91,7 +91,7 @@ def _fit(pick: random.Random, folder: Path) -> tuple[str, ...]:
 
 
 def _export(pick: random.Random, folder: Path) -> tuple[str, ...]:
-    """Ask for an FMU that is refused before anything is compiled."""
+    """Ask for an FMU that needs no compiling."""
     name = pick.choice(tuple(_EXPORTED))
     odd = pick.choice((("--vary", str(of_one.value(pick, Leaf(("x",)), False))), ("--set", "loads.radial=x"), ("--x",)))
     return ("export", "fmu", "6208-axial-1300", name, pick.choice(_EXPORTED[name]), *odd, "--out", "out.fmu")

@@ -172,6 +172,21 @@ def test_an_entry_of_another_type_is_told_in_one_line(tmp_path: Path) -> None:
     ]
 
 
+def test_a_series_that_was_asked_for_and_not_computed_is_a_partial_result(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Tell scripts that a case of a series has mistakes."""
+    (tmp_path / "rig.toml").write_text(
+        'title = "t"\nsource = "s"\nlicence = "l"\nhow_read = "h"\nuncertainty = "u"\n'
+        'case = { bearing = { designation = "SKF 6208" } }\n'
+    )
+    (tmp_path / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,50\n")
+    assert main(["measured", "compare", str(tmp_path / "rig.toml"), "--quiet"]) == 5
+    out, err = capsys.readouterr()
+    assert "not computed: case: 3 errors" in out
+    assert err == "asked for and not computed: rig\n"
+
+
 def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["measured", "list"]) == 0
     text = capsys.readouterr().out
