@@ -50,7 +50,7 @@ def answer(say: Say, question: str, tables: dict[str, Any], folder: str | None, 
 def _equilibrium(say: Say, model: Any, units: Any) -> Any:
     from lambda_core import api
 
-    found = api.quasistatic(model, announce=say)
+    found = api.quasistatic(model, band=True, announce=say)
     modes = api.modes(model, announce=say) if api.is_machine(model) else None
     told = [answer.text(None, units) for answer in (found, modes) if answer is not None]
     return "\n\n".join(told), api.machine_pictures(found, modes)

@@ -113,7 +113,7 @@ def test_every_machine_has_every_answer(case: str, question: str) -> None:
     """
     text, views = answer(lambda _: None, question, draft_of(case).tables, None, "si")
     words = {
-        "equilibrium": "friction torque",
+        "equilibrium": "N mm (model ",
         "temperatures": "outer ring",
         "currents": "discharges",
         "friction": "quasi-static",
