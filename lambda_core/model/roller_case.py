@@ -60,6 +60,7 @@ from lambda_core.model.roller_loads import (
     outer_support,
     ring_masses,
 )
+from lambda_core.model.roller_mounting import in_operation
 from lambda_core.model.settings.contamination import contamination_of
 from lambda_core.views.roller_profile import RollerShape
 
@@ -243,7 +244,8 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
             if law is not None and geometry is not None:
                 density = partial(law.density, temperature=oil.temperature)
                 dielectric = dielectric_of_case(case, row, oil, density, geometry, known, ledger)
-    geometry = bent_rings(geometry, case, catalogue, ledger) if geometry else None
+    if geometry is not None:
+        geometry = bent_rings(in_operation(case, geometry, catalogue, ledger), case, catalogue, ledger)
     level = resolve_oil_level(case.lubricant, row, geometry.diameter if geometry else 0.0, ledger)
     held, written = held_directions(case, ledger), friction_of_case(case, known, ledger)
     contamination = contamination_of(case, geometry.pitch_diameter, ledger) if geometry else None
