@@ -174,7 +174,7 @@ def roller_statics(
     limit = _limit(bearing, model.lubrication, radial, motion.relative)
     least = finite(min(found.film_parameter.values(), default=math.nan))
     inner, outer = (float(load.sum(axis=1).max()) for load in loads.values())
-    pressure = 1e-9 * max(_pressure(bearing, one) for one in solved.states)
+    pressure = 1e-9 * max(largest_pressure(bearing, one) for one in solved.states)
     rating = roller_rating(bearing, state, (radial, axial), motion.relative, model.oil.kinematic, model.contamination)
     told = [*_warnings(model, state, axial, limit), *_shortened(bearing, rating)]
     if moving is not None:
@@ -297,7 +297,7 @@ def _largest(state: RollerEquilibrium) -> float:
     return float(max(state.inner.sum(axis=1).max(), state.outer.sum(axis=1).max()))
 
 
-def _pressure(bearing: RollerBearing, state: RollerEquilibrium) -> float:
+def largest_pressure(bearing: RollerBearing, state: RollerEquilibrium) -> float:
     """Return the largest raceway pressure [Pa], also at rest."""
     from lambda_core.elements.roller.line_contact import peak_pressure
 
@@ -445,7 +445,7 @@ def _shortened(bearing: RollerBearing, rating: Rating) -> list[str]:
 def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit: AxialLimit | None) -> list[str]:
     """Return what is beyond a limit."""
     found = model.warnings
-    pressure = _pressure(model.bearing, state)
+    pressure = largest_pressure(model.bearing, state)
     if pressure > HIGHEST_ROLLER_PRESSURE:
         found.append(f"contact pressure {1e-9 * pressure:.3g} GPa is above the 4 GPa of the static rating (ISO 76)")
     if limit is not None and axial > limit.continuous:

@@ -16,17 +16,19 @@ import numpy as np
 from lambda_core.analysis.thermal.conductances import (
     effusivity,
     resting_contact,
-    resting_line,
     rolling_contact,
-    rolling_line,
 )
+from lambda_core.analysis.thermal.roller_losses import roller_extras, roller_losses
+from lambda_core.case.case_io import parse_case
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.geometry.resolve_geometry import with_clearance
+from lambda_core.model.roller_case import RollerModel, roller_model, rollers_at_rest
 from lambda_core.model.rollers_in_motion import with_clearance as rollers_with_clearance
+from lambda_core.results.roller_quasistatic import solve_rollers
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
@@ -106,8 +108,9 @@ class Losses:
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
         self.model = dataclasses.replace(model, thermal=None)
         self.count = 0  # points that were solved
-        self._kernels = Kernels(self.model, announce)
         self._announce = announce
+        self._rollers = None if model.rollers is None else rollers_at_rest(self.model)
+        self._kernels = None if self._rollers is not None else Kernels(self.model, announce)
 
     def at(self, inlet: float, clearance: float) -> Point:
         """Solve the point at temperature [K] and clearance [m].
@@ -121,7 +124,10 @@ class Losses:
         """
         self.count += 1
         try:
-            return point_of(solve(self.there(inlet, clearance), self._kernels, self._announce))
+            there = self.there(inlet, clearance)
+            if self._rollers is None:
+                return point_of(solve(there, self._kernels, self._announce))
+            return point_of_rollers(there, _warm(self._rollers, there))
         except SolverError as error:
             place = f"at {inlet - _ZERO_CELSIUS:.1f} degC in the inlets and a clearance of {1e6 * clearance:.1f} um"
             raise SolverError(f"{place}: {error}") from error
@@ -144,8 +150,26 @@ def model_at(model: BearingModel, inlet: float, clearance: float) -> BearingMode
     )
 
 
+def _warm(rollers: RollerModel, model: BearingModel) -> RollerModel:
+    """Return rollers with clearance and oil of a model."""
+    case = parse_case(model.case_toml, model.name)
+    warmer = roller_model(case, (f"lubricant.temperature={model.oil.temperature!r} K",))
+    assert warmer is not None
+    assert model.rollers is not None
+    return dataclasses.replace(rollers, bearing=model.rollers, oil=warmer.oil, dielectric=None)
+
+
+def point_of_rollers(model: BearingModel, rollers: RollerModel) -> Point:
+    """Return the point of rollers under their load."""
+    solved = solve_rollers(rollers)
+    materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
+    extras = roller_extras(solved, rollers, materials)
+    values = [*roller_losses(solved, rollers.bearing), *(extras[name] for name in _EXTRAS)]
+    return Point(model.oil.temperature, model.geometry.clearance, np.array(values))
+
+
 def point_of(found: Equilibrium) -> Point:
-    """Return the point of an equilibrium."""
+    """Return the point of an equilibrium of balls."""
     model, oil = found.context.model, found.context.oil
     channel = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
     carrying = channel["load"] > CARRYING * channel["load"].max()
@@ -180,10 +204,7 @@ def contact_conductances(found: Equilibrium) -> tuple[float, float]:
                 continue
             a, b, film = value["semi_axis_a"], value["semi_axis_b"], max(value["film_central"], 1e-9)
             rest = abs(value["entrainment"]), oil.thermal_conductivity / film, effusivity(ball), effusivity(ring)
-            if model.rollers is None:
-                total[i] += max(rolling_contact(a, b, *rest), resting_contact(a, b, mean))
-            else:
-                total[i] += max(rolling_line(2.0 * a, b, *rest), resting_line(2.0 * a, b, mean))
+            total[i] += max(rolling_contact(a, b, *rest), resting_contact(a, b, mean))
     return total[0], total[1]
 
 

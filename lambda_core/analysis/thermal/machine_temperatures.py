@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from lambda_core.analysis.rotor.bearing_alone import taken_out
 from lambda_core.analysis.thermal.feedback import (
     INLET_STEP,
     LENGTH_STEP,
@@ -24,7 +25,7 @@ from lambda_core.analysis.thermal.feedback import (
     stated_clearance,
 )
 from lambda_core.analysis.thermal.found_temperatures import FoundTemperatures
-from lambda_core.analysis.thermal.losses import Announce, Point, model_at, point_of
+from lambda_core.analysis.thermal.losses import Announce, Point, model_at, point_of, point_of_rollers
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.shaft_and_housing import network_of
 from lambda_core.analysis.thermal.surroundings import housing_area
@@ -37,6 +38,7 @@ from lambda_core.model.machine_model import MachineModel, MountedBearing
 from lambda_core.model.resolve_machine import resolve_machine
 from lambda_core.model.settings.machine_heat import BEARING_NODES, stretch
 from lambda_core.solver.drivers.machine_statics import SharedKernels, solve_machine
+from lambda_core.solver.drivers.roller_reaction import Ring, RollerReaction
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -140,7 +142,7 @@ class MachineLoop(Loop):
     def points_of(self, model: BearingModel | MachineModel) -> tuple[Point, ...]:
         """Return each bearing's point at a model's own temperatures."""
         state = solve_machine(cast("MachineModel", model), self._announce)
-        return tuple(point_of(ring.equilibrium()) for ring in state.rings)
+        return tuple(_point(ring, one.name) for ring, one in zip(state.rings, self.machine.bearings, strict=True))
 
     def solved(self, seen: FloatArray) -> tuple[Point, ...]:
         """Solve shaft and bearings, return each bearing's point.
@@ -153,15 +155,9 @@ class MachineLoop(Loop):
         self._count += 1
         try:
             state = solve_machine(self.there(seen), self._announce, self._kernels)
-            found = [ring.equilibrium() for ring in state.rings]
-            for bearing, one in zip(self.machine.bearings, found, strict=True):
-                if not one.converged:
-                    raise SolverError(
-                        f"the {bearing.model.elements} of {bearing.name} have no steady motion: change load or speed"
-                    )
+            return tuple(_point(ring, one.name) for ring, one in zip(state.rings, self.machine.bearings, strict=True))
         except SolverError as error:
             raise SolverError(f"{self._place(seen)}: {error}") from error
-        return tuple(map(point_of, found))
 
     def slopes(
         self, seen: FloatArray, points: Sequence[Point], temperatures: FloatArray
@@ -204,6 +200,19 @@ class MachineLoop(Loop):
     def count(self) -> int:
         """Quasi-static points that were solved."""
         return self._count
+
+
+def _point(ring: Ring, name: str) -> Point:
+    """Return a bearing's point at its rings' last pose.
+
+    SolverError where its balls have no steady motion.
+    """
+    if isinstance(ring, RollerReaction):
+        return point_of_rollers(ring.model, taken_out(ring))
+    found = ring.equilibrium()
+    if not found.converged:
+        raise SolverError(f"the {ring.model.elements} of {name} have no steady motion: change load or speed")
+    return point_of(found)
 
 
 def _mean(machine: MachineModel, at: Mapping[str, float], part: str) -> float:

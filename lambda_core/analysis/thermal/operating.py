@@ -107,8 +107,10 @@ class BearingLoop(Loop):
     def words(self, found: Steady) -> str:
         """Return the temperatures of all parts and the oil [degC]."""
         at = self.nodes.named(found.temperatures)
-        parts = (name for name in (*PARTS, "oil") if name in at)
-        return ", ".join(f"{name.replace('_', ' ')} {at[name] - _ZERO_CELSIUS:.1f}" for name in parts)
+        words = {name: name.replace("_", " ") for name in (*PARTS, "oil") if name in at} | {
+            "balls": self.model.elements
+        }
+        return ", ".join(f"{words[name]} {at[name] - _ZERO_CELSIUS:.1f}" for name in words if name in at)
 
     def headline(self, points: Sequence[Point]) -> str:
         """Return the lines that describe the bearing at its point."""
