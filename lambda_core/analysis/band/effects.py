@@ -164,12 +164,17 @@ class Effects:
             self._check_lost()
 
             def ends(graded: Graded = graded) -> list[FloatArray]:
-                moved = graded.models or [
-                    with_value(self._model, graded, end, resolver) for end in (graded.low, graded.high)
-                ]
-                return [self._logarithms(as_loaded(one, self._model), near=is_of_laws(graded)) for one in moved]
+                return [self._at_end(graded, number, resolver) for number in (0, 1)]
 
             yield from range_effect(graded, ends, self.left_out)
+
+    def _at_end(self, graded: Graded, number: int, resolver: Resolver) -> FloatArray:
+        """Return ln of relative results at an end of a range."""
+        end = (graded.low, graded.high)[number]
+        if end == graded.value:
+            return np.zeros(len(self.names))
+        moved = graded.models[number] if graded.models else with_value(self._model, graded, end, resolver)
+        return self._logarithms(as_loaded(moved, self._model), near=is_of_laws(graded))
 
     def _exchanges(self, resolver: Resolver) -> Iterator[Effect]:
         wanted = [exchange for exchange in exchanges(self._model) if exchange.role not in self._kept]

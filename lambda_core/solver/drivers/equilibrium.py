@@ -55,7 +55,8 @@ _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first atte
 _FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 40
 _BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
-# grooves, nanometres an iteration: friction, which holds them, can start from there.
+# grooves, nanometres an iteration: friction, which holds them, can start from there. Each part of such a search moves
+# them on as far again (Brezinski and Redivo Zaglia 1991, Extrapolation Methods): half the iterations reach the same end.
 _CREEP = 1e-4
 # Where drag is averaged over a revolution; balls dip into a bath of usual level over about 70 degrees.
 _DRAG_AZIMUTHS = 36
@@ -288,6 +289,7 @@ def _attempt(
     """
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
     trust, held = np.ones(context.driven.size), context.driven
+    has_friction = bool(context.bundle.system[0]["friction_on"])
 
     def advance(iterations: int) -> int:
         found: int = compiled.solve_static(
@@ -313,7 +315,10 @@ def _attempt(
     while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
         if report["iterations"][0] > _ALWAYS:
             check_time(f"{context.model.name}: the search for the equilibrium")
+        before = state.copy()
         status = advance(min(_ITERATIONS_PER_CALL, most - int(report["iterations"][0])))
+        if status == Status.UNFINISHED and not has_friction and report["last_change"] <= _CREEP:
+            state += state - before
     return status, report
 
 
@@ -372,10 +377,7 @@ def _no_equilibrium(context: SolverContext, report: StaticReport, *, friction: b
 
 
 def _limitless(context: SolverContext) -> str:
-    """Report a traction law without limit.
-
-    It gives shear stresses that no oil has; or nothing.
-    """
+    """Report a traction law with stresses that no oil has."""
     for element in ("ball_inner", "ball_outer"):
         law = context.model.laws[element]["traction"]
         ratio = stress_ratio(law.model, context.parameters(element, "traction"))
@@ -407,10 +409,7 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
 
 
 def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:
-    """Return mean angles and loads of loaded contacts.
-
-    They are weighted by loads, with absolute angles, for each ring.
-    """
+    """Return load-weighted angles and loads of each ring."""
     angles, loads, rings, ribs = [], [], rings_of_contacts(geometry), are_ribs(geometry)
     for i in range(2):
         own = contacts[:, (rings == i) & ~ribs]
