@@ -26,13 +26,15 @@ class Data:
     columns : mapping of str to float64[:]
         Operating conditions, for tests of the residuals.
     input_errors : float64[:, :], shape (n, k)
-        Standard deviations of k operating conditions; empty where they are exact.
+        Standard deviations of k operating conditions at each point alone; empty where they are exact.
     is_error_known : bool
         Whether the size of the errors is known; otherwise the scatter of the residuals gives it.
     is_proportional : bool
         Whether `errors` are shares of the predicted values. Shares of the measured ones would tie errors to noise.
     points : tuple of int
         Operating point of each value; values of one point share the errors of its conditions. Each its own if empty.
+    common_errors : float64[:, :], shape (n, k)
+        Standard deviations of the errors that the same conditions have in common at all points; empty for none.
     """
 
     values: FloatArray
@@ -42,6 +44,7 @@ class Data:
     is_error_known: bool = True
     is_proportional: bool = False
     points: tuple[int, ...] = ()
+    common_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
 
     def absolute(self, predicted: FloatArray) -> FloatArray:
         """Return the errors in the unit of the values."""
@@ -50,6 +53,19 @@ class Data:
         size = np.abs(predicted)
         found: FloatArray = self.errors * np.maximum(size, _SMALLEST_SHARE * float(np.median(size)))
         return found
+
+    def moved(self, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return what errors of the conditions change.
+
+        The first array has the errors of each point alone, the second those in common, shape (n, k).
+
+        Parameters
+        ----------
+        slopes : float64[:, :], shape (n, k)
+            Derivatives of the predicted values by the conditions.
+        """
+        common = self.common_errors if self.common_errors.size else np.zeros_like(self.input_errors)
+        return slopes * self.input_errors, slopes * common
 
     @property
     def groups(self) -> list[NDArray[np.int64]]:

@@ -108,7 +108,7 @@ def _fitted(
             problem.parameters,
             problem.data,
             jacobian=problem.jacobian,
-            input_slopes=problem.input_slopes if data.condition_errors else None,
+            input_slopes=problem.input_slopes if data.uncertain else None,
             is_costly=True,
         )
 

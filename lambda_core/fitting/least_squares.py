@@ -46,7 +46,7 @@ class Fit:
     predicted, errors : float64[:], shape (n,)
         Predicted values; standard deviations of the measured ones with those of the operating conditions.
     shared : SharedErrors
-        Which of these the values of one operating point have in common.
+        Which of these the values of one operating point, or all, have in common.
     jacobian : float64[:, :], shape (n, p)
         Derivatives of the predicted values by all parameters.
     directions : list of Direction
@@ -158,8 +158,9 @@ class Fit:
         It is the predicted less the measured value.
         """
         roots = np.sqrt(self.weights)
-        found = U.left_out_residuals(-self.independent * roots, self._basis, self.data.groups)
-        return self.shared.together(found / roots) * self.errors * self.scale
+        apart = self.shared.apart(np.eye(roots.size)) * roots[:, None]
+        found = U.left_out_residuals(-self.independent * roots, self._basis, apart, self.data.groups)
+        return found * self.errors * self.scale
 
     def quantile(self, confidence: float = CONFIDENCE) -> float:
         """Return the quantile of Student's distribution for degrees of freedom.
@@ -414,14 +415,14 @@ class _Search:
     def _take_errors(self) -> None:
         """Take errors of measured values at the present point.
 
-        They include those of the operating conditions, which values of one point share.
+        They include those of the operating conditions, which values of one point share, or of all points.
         """
         data = self._data
         self._errors, self._shared = data.absolute(self._predicted()), SharedErrors()
         if self._input_slopes is not None and data.input_errors.size:
-            moved = np.asarray(self._input_slopes(self._point)) * data.input_errors
-            self._errors = np.sqrt(self._errors**2 + np.sum(moved**2, axis=1))
-            self._shared = SharedErrors.of(data.groups, moved, self._errors)
+            moved, common = data.moved(np.asarray(self._input_slopes(self._point)))
+            self._errors = np.sqrt(self._errors**2 + np.sum(moved**2 + common**2, axis=1))
+            self._shared = SharedErrors.of(data.groups, moved, common, self._errors)
         self._scale = self._scatter()
 
     def _scatter(self) -> float:

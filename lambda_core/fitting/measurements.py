@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lambda_core.analysis.band.quantities import ERROR, LABEL, OPERATING_POINTS, Condition, Vocabulary
+from lambda_core.analysis.band.quantities import COMMON_ERROR, ERROR, LABEL, OPERATING_POINTS, Condition, Vocabulary
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.csv_rows import csv_rows
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
@@ -26,6 +26,7 @@ _LONGEST, _BEGIN = 80, 20  # characters of a number, and of the part of it that 
 _SMALL, _BIG = 1e-15, 1e15  # sizes of numbers but 0, in their units: far beyond, squares overflow
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how such a file begins
 _SHARE = "%"  # unit of an error as a share of the value
+_OF_CONDITIONS = ("condition error", "common error")  # kinds of columns
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,9 @@ class Measurements:
     set_by : dict of str to Condition
         What each of them sets.
     condition_errors : dict of str to float64[:]
-        Their standard deviations in SI; absent where they are exact.
+        Standard deviations of what each point has of its own, in SI; absent where they are exact.
+    common_errors : dict of str to float64[:]
+        Standard deviations of the error of a condition that all points have in common, in SI.
     measured : dict of str to float64[:]
         Measured quantities in the units of the vocabulary; NaN where one was not measured.
     errors : dict of str to float64[:]
@@ -61,6 +64,7 @@ class Measurements:
     conditions: dict[str, FloatArray]
     set_by: dict[str, Condition]
     condition_errors: dict[str, FloatArray] = field(default_factory=dict)
+    common_errors: dict[str, FloatArray] = field(default_factory=dict)
     measured: dict[str, FloatArray] = field(default_factory=dict)
     errors: dict[str, FloatArray] = field(default_factory=dict)
     shares: dict[str, FloatArray] = field(default_factory=dict)
@@ -72,6 +76,11 @@ class Measurements:
     def count(self) -> int:
         """Number of measured values."""
         return sum(int(np.isfinite(values).sum()) for values in self.measured.values())
+
+    @property
+    def uncertain(self) -> dict[str, FloatArray]:
+        """Conditions that have errors, with a size of them."""
+        return self.common_errors | self.condition_errors
 
     def without(self, rows: Container[int]) -> Measurements:
         """Return the same without some points."""
@@ -86,6 +95,7 @@ class Measurements:
             labels=tuple(self.labels[row] for row in kept),
             conditions=part(self.conditions),
             condition_errors=part(self.condition_errors),
+            common_errors=part(self.common_errors),
             measured=part(self.measured),
             errors=part(self.errors),
             shares=part(self.shares),
@@ -93,7 +103,7 @@ class Measurements:
 
     def equal_lines(self) -> list[tuple[int, ...]]:
         """Return the lines of points that agree in every column."""
-        groups = (self.conditions, self.condition_errors, self.measured, self.errors, self.shares)
+        groups = (self.conditions, self.condition_errors, self.common_errors, self.measured, self.errors, self.shares)
         columns = [column.tolist() for group in groups for column in group.values()]
         found: dict[tuple[object, ...], list[int]] = {}
         for row, line in enumerate(self.lines):
@@ -109,7 +119,7 @@ class _Column:
     It holds a condition or a quantity.
     """
 
-    kind: str  # "condition", "condition error", "measured", "error", "share", "label"
+    kind: str  # "condition", "condition error", "common error", "measured", "error", "share", "label"
     name: str
     unit: str
     quantity: str
@@ -190,7 +200,7 @@ def _columns(line: int, header: list[str], problems: list[Problem], words: Vocab
         problems.append(Problem(f"line {line}", f"has no measured quantity: add a column named {listed}"))
     for column in found:
         owner = "measured" if column.kind in ("error", "share") else "condition"
-        if column.kind in ("error", "share", "condition error") and (owner, column.name) not in names:
+        if column.kind in ("error", "share", *_OF_CONDITIONS) and (owner, column.name) not in names:
             problems.append(Problem(f"line {line}", f'"{column.header}" has no column "{column.name}" it belongs to'))
     both = {n for k, n in names if k == "error"} & {n for k, n in names if k == "share"}
     problems += [Problem(f"line {line}", f'"{name}" has two columns of errors: keep one') for name in sorted(both)]
@@ -215,11 +225,11 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
         return None
     if words == LABEL:
         return _Column("label", LABEL, "", "", text)
-    is_error = words.endswith(ERROR)
-    name = words.removesuffix(ERROR)
+    end = next((end for end in (COMMON_ERROR, ERROR) if words.endswith(end)), "")
+    is_error, name = bool(end), words.removesuffix(end)
     condition = vocabulary.condition(name, unit or "")
     if condition is None and "." in name:  # the path of an option; names in it may have capitals
-        name = written[: len(written) - len(ERROR)] if is_error else written
+        name = written[: len(written) - len(end)]
         condition = vocabulary.condition(name, unit or "")
     if condition is None and name not in measured:
         known = [*vocabulary.conditions, *measured]
@@ -232,6 +242,11 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
             problems.append(Problem(where, f'"{shown}": {why}'))
             return None
         problems.append(Problem(where, f'"{shown}" is not a known column; {names}'))
+        return None
+    if condition is None and end == COMMON_ERROR:
+        problems.append(
+            Problem(where, f'"{text}": only operating conditions have errors in common: write "{name}{ERROR} [%]"')
+        )
         return None
     if condition is not None:
         quantity = condition.error_quantity if is_error else condition.quantity
@@ -256,7 +271,7 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
     except ValueError as error:
         problems.append(Problem(where, f'"{text}": {str(error).split(": ", 1)[-1]}'))
         return None
-    kinds = ("measured", "error") if condition is None else ("condition", "condition error")
+    kinds = ("measured", "error") if condition is None else ("condition", _OF_CONDITIONS[end == COMMON_ERROR])
     return _Column(kinds[is_error], name, unit, quantity, text, condition)
 
 
@@ -297,7 +312,7 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
             raise ValueError(f'"{cell}" is not a finite number')
         if number and not _SMALL <= abs(number) <= _BIG:
             raise ValueError(f'"{cell}": a number other than 0 lies between {_SMALL:g} and {_BIG:g} in size')
-        if column.kind in ("share", "error", "condition error") and number <= 0.0:
+        if column.kind in ("share", "error", *_OF_CONDITIONS) and number <= 0.0:
             raise ValueError(f'"{cell}": an error must be above zero')
         if column.kind == "measured" and number < 0.0 and not _may_be_negative(column, words):
             raise ValueError(f'"{cell}": must be 0 or above, whatever the sense of rotation')
@@ -331,7 +346,7 @@ def _measurements(
     """Put the columns together."""
     labels = tuple("" for _ in lines)
     groups: dict[str, dict[str, FloatArray]] = {
-        kind: {} for kind in ("condition", "condition error", "measured", "error", "share")
+        kind: {} for kind in ("condition", *_OF_CONDITIONS, "measured", "error", "share")
     }
     for index, column in enumerate(columns):
         cells = [row[index] for row in table]
@@ -355,6 +370,7 @@ def _measurements(
         groups["condition"],
         {column.name: column.condition for column in columns if column.kind == "condition" and column.condition},
         groups["condition error"],
+        groups["common error"],
         groups["measured"],
         groups["error"],
         groups["share"],

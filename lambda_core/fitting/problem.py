@@ -121,6 +121,12 @@ class CaseProblem:
             raise UsageError(f'{m.name}: give errors for all quantities or none; "{missing[0]} error [%]" is missing')
         if not all(known) and (warm := [name for name in m.measured if name.endswith("temperature")]):
             raise UsageError(f'{m.name}: a temperature needs its error: add a column "{warm[0]} error [K]"')
+        if not all(known) and m.common_errors:
+            first, name = next(iter(m.common_errors)), next(iter(m.measured))
+            raise UsageError(
+                f'{m.name}: "{first} common error" counts against errors of measured values: add a column '
+                f'"{name} error [%]"'
+            )
         errors, is_known = np.ones_like(values), all(known)
         for index, entry in enumerate(self.entries):
             if entry.quantity in m.errors:
@@ -128,9 +134,15 @@ class CaseProblem:
             elif entry.quantity in m.shares:
                 errors[index] = m.shares[entry.quantity][entry.row] * abs(values[index])
         columns = {name: column[[e.row for e in self.entries]] for name, column in m.conditions.items()}
-        inputs = [column[[e.row for e in self.entries]] for column in m.condition_errors.values()]
-        stacked = np.column_stack(inputs) if inputs else np.zeros((0, 0))
-        return Data(values, errors, columns, stacked, is_known, not is_known, tuple(e.row for e in self.entries))
+        alone, common = (self._of_entries(errors) for errors in (m.condition_errors, m.common_errors))
+        points = tuple(e.row for e in self.entries)
+        return Data(values, errors, columns, alone, is_known, not is_known, points, common)
+
+    def _of_entries(self, errors: Mapping[str, FloatArray]) -> FloatArray:
+        """Return errors of conditions for each value, shape (n, k)."""
+        rows, nothing = [e.row for e in self.entries], np.zeros(self.rows)
+        found = [errors.get(name, nothing)[rows] for name in self.measurements.uncertain]
+        return np.column_stack(found) if found else np.zeros((0, 0))
 
     def predict(self, values: FloatArray) -> FloatArray:
         """Return the predicted values, shape (n,)."""
@@ -156,7 +168,7 @@ class CaseProblem:
         The array has shape (n, k).
         """
         base, columns = self._stacked(values, self._conditions, one=True), []
-        for name, errors in self.measurements.condition_errors.items():
+        for name, errors in self.measurements.uncertain.items():
             moved = [
                 {**conditions, name: conditions[name] + float(errors[row])}
                 for row, conditions in enumerate(self._conditions)
@@ -173,8 +185,8 @@ class CaseProblem:
         data = self.data
         if not data.input_errors.size:
             return np.zeros(len(self.entries))
-        moved = self.input_slopes(values) * data.input_errors
-        found: FloatArray = np.sqrt(np.sum(moved**2, axis=1))
+        moved, common = data.moved(self.input_slopes(values))
+        found: FloatArray = np.sqrt(np.sum(moved**2 + common**2, axis=1))
         return found
 
     def conditions_of_entries(self) -> list[dict[str, float]]:

@@ -1,14 +1,15 @@
-"""Make errors independent that values of a point share.
+"""Make errors independent that measured values share.
 
-An error of the oil temperature moves torque and loss of a point together: both do not tell twice what one tells.
-The values of each point are combined into as many with independent errors of size one (Aitken 1936, Proc. R. Soc.
-Edinb. 55, 42: generalised least squares).
+An error of the oil temperature moves torque and loss of a point together: both do not tell twice what one tells. The
+error of a thermometer moves all points together. The values are combined into as many with independent errors of size
+one (Aitken 1936, Proc. R. Soc. Edinb. 55, 42: generalised least squares).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +21,12 @@ _LEAST_OWN = 1e-6  # share of a variance that belongs to a value alone: keeps th
 
 @dataclass(frozen=True)
 class SharedErrors:
-    """Correlations of errors within operating points.
+    """Correlations of errors within and between points.
 
     Attributes
     ----------
     groups : tuple of int64[:]
-        Values of each point that has several.
+        Values whose errors are correlated: of each point that has several, or all.
     correlations : tuple of float64[:, :]
         Of their errors.
     """
@@ -34,24 +35,42 @@ class SharedErrors:
     correlations: tuple[FloatArray, ...] = ()
 
     @classmethod
-    def of(cls, groups: Sequence[NDArray[np.int64]], moved: FloatArray, errors: FloatArray) -> SharedErrors:
+    def of(
+        cls, groups: Sequence[NDArray[np.int64]], moved: FloatArray, common: FloatArray, errors: FloatArray
+    ) -> SharedErrors:
         """Return those by errors of operating conditions.
 
         Parameters
         ----------
         moved : float64[:, :], shape (n, k)
-            Change of each value by the error of each condition.
+            Change of each value by the error that each condition has at its point alone.
+        common : float64[:, :], shape (n, k)
+            Change of each value by the error that a condition has in common at all points.
         errors : float64[:], shape (n,)
             Standard deviations with these changes.
         """
-        several = tuple(group for group in groups if group.size > 1)
+        every = [np.arange(errors.size)] if common.any() else []
+        several = tuple(group for group in every or groups if group.size > 1)
+        place = np.empty(errors.size, dtype=np.int64)
+        for number, group in enumerate(groups):
+            place[group] = number
         found = []
         for group in several:
-            parts = moved[group] / errors[group, None]
-            matrix = (1.0 - _LEAST_OWN) * (parts @ parts.T)
+            own, all_of = moved[group] / errors[group, None], common[group] / errors[group, None]
+            is_one = place[group, None] == place[group]
+            matrix = (1.0 - _LEAST_OWN) * (is_one * (own @ own.T) + all_of @ all_of.T)
             np.fill_diagonal(matrix, 1.0)
             found.append(matrix)
         return cls(several, tuple(found))
+
+    @cached_property
+    def _roots(self) -> list[tuple[FloatArray, FloatArray]]:
+        """Cholesky factors of the correlations, and their inverses.
+
+        Outliers spoil less with them than with symmetric roots, which spread each one over all values.
+        """
+        roots = [np.linalg.cholesky(matrix) for matrix in self.correlations]
+        return [(root, np.linalg.inv(root)) for root in roots]
 
     def apart(self, values: FloatArray) -> FloatArray:
         """Return values with independent errors of size one.
@@ -59,15 +78,15 @@ class SharedErrors:
         They are given in units of their errors, or their derivatives, shape (n,) or (n, p).
         """
         found = values.copy()
-        for group, matrix in zip(self.groups, self.correlations, strict=True):
-            found[group] = np.linalg.solve(np.linalg.cholesky(matrix), values[group])
+        for group, (_, inverse) in zip(self.groups, self._roots, strict=True):
+            found[group] = inverse @ values[group]
         return found
 
     def together(self, values: FloatArray) -> FloatArray:
         """Undo :meth:`apart`."""
         found = values.copy()
-        for group, matrix in zip(self.groups, self.correlations, strict=True):
-            found[group] = np.linalg.cholesky(matrix) @ values[group]
+        for group, (root, _) in zip(self.groups, self._roots, strict=True):
+            found[group] = root @ values[group]
         return found
 
     def among(self, rows: NDArray[np.int64]) -> SharedErrors:

@@ -201,27 +201,35 @@ def leverages(basis: FloatArray) -> FloatArray:
     return found
 
 
-def left_out_residuals(residuals: FloatArray, basis: FloatArray, groups: Sequence[NDArray[np.int64]]) -> FloatArray:
+def left_out_residuals(
+    residuals: FloatArray, basis: FloatArray, apart: FloatArray, groups: Sequence[NDArray[np.int64]]
+) -> FloatArray:
     """Return the leave-one-out residuals, linearised.
 
-    The values of each group would have them were they all left out of the fit.
+    The values of each group would have them were they all left out of the fit. Errors that a group shares with others
+    are predicted from those.
 
     Parameters
     ----------
     residuals : float64[:], shape (n,)
-        Weighted.
+        Weighted, with independent errors.
     basis : float64[:, :], shape (n, p)
         Orthonormal, of the weighted derivatives.
+    apart : float64[:, :], shape (n, n)
+        Makes residuals weighted and independent.
     groups : sequence of int64[:]
         Values of each operating point.
 
     References
     ----------
-    Cook and Weisberg 1982, Residuals and Influence in Regression, eqs. 2.2.3 (one value) and 3.6.1 (several).
+    Cook and Weisberg 1982, Residuals and Influence in Regression, eqs. 2.2.3 (one value) and 3.6.1 (several); Dubrule
+    1983, Math. Geol. 15, 687 (values with correlated errors).
     """
-    found = residuals.copy()
+    found = np.zeros_like(residuals)
     for group in groups:
-        vectors, sizes, _ = np.linalg.svd(basis[group], full_matrices=False)
-        pull = np.minimum(sizes**2, _LARGEST_LEVERAGE)
-        found[group] += vectors @ (pull / (1.0 - pull) * (vectors.T @ residuals[group]))
+        own, scale = np.linalg.qr(apart[:, group])
+        sizes, vectors = np.linalg.svd(basis.T @ own, full_matrices=True)[1:]
+        pull = np.zeros(len(group))
+        pull[: sizes.size] = np.minimum(sizes**2, _LARGEST_LEVERAGE)
+        found[group] = np.linalg.solve(scale, vectors.T @ ((vectors @ (own.T @ residuals)) / (1.0 - pull)))
     return found

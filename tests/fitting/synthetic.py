@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -73,13 +74,28 @@ def spoiled(random: np.random.Generator, values: FloatArray, errors: FloatArray)
 NOISES: dict[str, Noise] = {"normal": normal, "heavy": heavy, "spoiled": spoiled}
 
 
-def fitted(noise: Noise, seed: int, *, is_error_known: bool, temperature_error: float = 0.0) -> Fit:
-    """Fit one set of synthetic measurements."""
+def fitted(
+    noise: Noise,
+    seed: int,
+    *,
+    is_error_known: bool,
+    temperature_error: float = 0.0,
+    common_error: float = 0.0,
+    is_told: bool = True,
+) -> Fit:
+    """Fit one set of synthetic measurements.
+
+    The thermometer has a `common_error` at all points [K]; where it `is_told` to be none, each point has one.
+    """
     at, random = plan(), np.random.default_rng(seed)
     actual = at._replace(temperature=at.temperature + temperature_error * random.standard_normal(at.speed.size))
+    if common_error:
+        actual = actual._replace(temperature=actual.temperature + common_error * random.standard_normal())
     errors = 0.01 * torque(TRUTH, at)
     values = noise(random, torque(TRUTH, actual), errors)
-    inputs = np.full((values.size, 1), temperature_error) if temperature_error else np.zeros((0, 0))
+    alone = math.hypot(temperature_error, 0.0 if is_told else common_error)
+    inputs = np.full((values.size, 1), alone) if alone or common_error else np.zeros((0, 0))
+    common = np.full((values.size, 1), common_error) if common_error and is_told else np.zeros((0, 0))
 
     def slopes(parameters: FloatArray) -> FloatArray:
         warmer = at._replace(temperature=at.temperature + 0.5)
@@ -87,5 +103,5 @@ def fitted(noise: Noise, seed: int, *, is_error_known: bool, temperature_error: 
 
     known = errors if is_error_known else np.ones(values.size)
     columns = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
-    data = Data(values, known, columns, inputs, is_error_known, not is_error_known)
-    return fit(lambda p: torque(p, at), PARAMETERS, data, input_slopes=slopes if temperature_error else None)
+    data = Data(values, known, columns, inputs, is_error_known, not is_error_known, common_errors=common)
+    return fit(lambda p: torque(p, at), PARAMETERS, data, input_slopes=slopes if inputs.size else None)

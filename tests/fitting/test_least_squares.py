@@ -184,6 +184,63 @@ def test_the_region_holds_the_truth_where_quantities_share_an_error() -> None:
     assert 0.88 <= np.mean(inside) <= 0.99
 
 
+def _thermometer(told: str, seed: int) -> Fit:
+    """Fit torques whose thermometer is wrong by one error of 3 K."""
+    return S.fitted(S.normal, seed, is_error_known=True, common_error=3.0, is_told=told == "common")
+
+
+@pytest.mark.parametrize(("told", "least", "most"), [("common", 0.85, 1.0), ("each", 0.0, 0.7)])
+def test_the_region_holds_the_truth_where_points_share_an_error(told: str, least: float, most: float) -> None:
+    """Draw 40 series with a thermometer that is wrong.
+
+    Its error counts as one of all points, or as independent ones: these promise too much.
+    """
+    inside = np.mean([_thermometer(told, seed).contains(S.TRUTH) for seed in range(ORDINARY)])
+    assert least <= inside <= most
+
+
+def test_an_error_that_all_points_share_is_exact() -> None:
+    """Compare the covariance with generalised least squares.
+
+    Each temperature has an error of its own and one in common.
+    """
+    x = np.arange(1.0, 13.0)
+    own, alone, common = 0.01 * x, 0.02 * x, 0.05 * np.sqrt(x)
+    slopes = np.stack([alone, common], axis=1)
+    first, second = np.tile([1.0, 0.0], (12, 1)), np.tile([0.0, 1.0], (12, 1))
+    data = Data(x, own, input_errors=first, points=tuple(range(12)), common_errors=second)
+    found = fit(
+        lambda p: p[0] * x, [Parameter("a", 0.9, 0.1, 2.0)], data, input_slopes=lambda p: slopes, limit=math.inf
+    )
+    known = np.diag(own**2 + alone**2) + np.outer(common, common)
+    assert found.standard_errors[0] == pytest.approx(1.0 / math.sqrt(x @ np.linalg.solve(known, x)), rel=1e-4)
+
+
+def test_a_point_left_out_takes_the_common_error_of_the_others() -> None:
+    """Compare it with the best prediction of a value by the others.
+
+    That of correlated errors is x' b + k' K^-1 (y - X b) (Goldberger 1962, J. Am. Stat. Assoc. 57, 369).
+    """
+    x, random = np.arange(1.0, 13.0), np.random.default_rng(5)
+    common = 0.2 * np.sqrt(x)
+    y = x + common * random.standard_normal() + 0.01 * x * random.standard_normal(12)
+    known = np.diag((0.01 * x) ** 2) + np.outer(common, common)
+    data = Data(y, 0.01 * x, input_errors=np.zeros((12, 1)), common_errors=np.ones((12, 1)))
+    found = fit(
+        lambda p: p[0] * x,
+        [Parameter("a", 0.9, 0.1, 2.0)],
+        data,
+        input_slopes=lambda p: common[:, None],
+        limit=math.inf,
+    )
+    for index in (0, 7):
+        kept = np.arange(12) != index
+        inverse = np.linalg.inv(known[np.ix_(kept, kept)])
+        best = float(x[kept] @ inverse @ y[kept] / (x[kept] @ inverse @ x[kept]))
+        value = x[index] * best + known[index, kept] @ inverse @ (y[kept] - x[kept] * best)
+        assert found.left_out[index] == pytest.approx(value - y[index], rel=1e-3)
+
+
 def test_leave_one_out_leaves_all_values_of_a_point_out() -> None:
     """Compare it with fits without each point.
 

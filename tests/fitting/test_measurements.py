@@ -66,6 +66,16 @@ def test_two_columns_that_set_one_option_are_refused() -> None:
         parse_measurements(text, "rig.csv", words)
 
 
+def test_a_condition_may_have_two_errors() -> None:
+    """Read the error of a point alone and that of all points."""
+    head = (
+        "speed [rpm],oil temperature [degC],oil temperature error [K],oil temperature common error [K],power loss [W]"
+    )
+    found = parse_measurements(f"{head}\n500,60,0.5,2,3\n600,70,0.5,2,4\n", "rig.csv")
+    np.testing.assert_allclose(found.condition_errors["oil temperature"], 0.5)
+    np.testing.assert_allclose(found.without({0}).common_errors["oil temperature"], [2.0])
+
+
 def test_one_of_several_quantities_may_be_missing() -> None:
     found = parse_measurements("speed [rpm],power loss [W],capacitance [pF]\n500,3,\n600,,900\n", "rig.csv")
     np.testing.assert_allclose(found.measured["capacitance"], [np.nan, 0.9])
@@ -84,6 +94,8 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed [kN],power loss [W]\n1,2\n", "kN is not a unit of rotational_speed"),
         ("speed [rpm],speed [rpm],power loss [W]\n1,1,2\n", 'column 2       "speed" appears twice'),
         ("power loss [W],speed error [rpm]\n1,2\n", 'no column "speed" it belongs to'),
+        ("power loss [W],speed common error [rpm]\n1,2\n", 'no column "speed" it belongs to'),
+        ("power loss [W],power loss common error [W]\n1,2\n", "only operating conditions have errors in common"),
         ("speed [rpm];power loss [W]\n1;2\n1,5;2\n", 'column 1       speed [rpm]: "1,5": write a decimal point'),
         ("speed [rpm],power loss [W]\n1,2\n1,5,2\n", "has 3 cells, the header 2; write decimal points"),
         ("speed [rpm],power loss [W]\n1\n", "line 2                 has 1 cells, the header 2"),

@@ -168,4 +168,5 @@ class Vocabulary:
 
 OPERATING_POINTS = Vocabulary(CONDITIONS, MEASURED, '"speed [1/min],radial load [kN],friction torque [N mm]"')
 ERROR = " error"  # ends the name of a column of errors
+COMMON_ERROR = " common error"  # likewise, of errors that all points have in common
 LABEL = "label"  # a column of words, kept for tables
