@@ -56,7 +56,7 @@ _FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 40
 _BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there. Each part of such a search moves
-# them on as far again (Brezinski and Redivo Zaglia 1991, Extrapolation Methods): half the iterations reach the same end.
+# them on as far again (Brezinski and Redivo Zaglia 1991, Extrapolation Methods): half the iterations reach the end.
 _CREEP = 1e-4
 # Where drag is averaged over a revolution; balls dip into a bath of usual level over about 70 degrees.
 _DRAG_AZIMUTHS = 36
