@@ -69,8 +69,11 @@ class SharedErrors:
 
         Outliers spoil less with them than with symmetric roots, which spread each one over all values.
         """
-        roots = [np.linalg.cholesky(matrix) for matrix in self.correlations]
-        return [(root, np.linalg.inv(root)) for root in roots]
+        found = []
+        for matrix in self.correlations:
+            root = np.asarray(np.linalg.cholesky(matrix), dtype=np.float64)
+            found.append((root, np.asarray(np.linalg.inv(root), dtype=np.float64)))
+        return found
 
     def apart(self, values: FloatArray) -> FloatArray:
         """Return values with independent errors of size one.
