@@ -52,7 +52,7 @@ _ITERATIONS_PER_CALL, _ALWAYS = 50, 200  # some hundredths of a second; however 
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
 # First step in pseudo-time [s]; from a state near the equilibrium; and that with which the way from there is tried
 # first, for so many iterations: above 1 s the continuation is Newton's method.
-_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 40
+_FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 15
 _BEGUN = 1e-9  # iterations of a search that has begun and has done none
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there. Each part of such a search moves
