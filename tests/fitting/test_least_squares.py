@@ -185,7 +185,7 @@ def test_the_region_holds_the_truth_where_quantities_share_an_error() -> None:
 
 
 def _thermometer(told: str, seed: int) -> Fit:
-    """Fit torques whose thermometer is wrong by one error of 3 K."""
+    """Fit torques with a thermometer wrong by 3 K."""
     return S.fitted(S.normal, seed, is_error_known=True, common_error=3.0, is_told=told == "common")
 
 
@@ -217,7 +217,7 @@ def test_an_error_that_all_points_share_is_exact() -> None:
 
 
 def test_a_point_left_out_takes_the_common_error_of_the_others() -> None:
-    """Compare it with the best prediction of a value by the others.
+    """Compare it with the best prediction from the others.
 
     That of correlated errors is x' b + k' K^-1 (y - X b) (Goldberger 1962, J. Am. Stat. Assoc. 57, 369).
     """

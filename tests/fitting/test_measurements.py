@@ -67,7 +67,7 @@ def test_two_columns_that_set_one_option_are_refused() -> None:
 
 
 def test_a_condition_may_have_two_errors() -> None:
-    """Read the error of a point alone and that of all points."""
+    """Read errors of single points and of all points."""
     head = (
         "speed [rpm],oil temperature [degC],oil temperature error [K],oil temperature common error [K],power loss [W]"
     )

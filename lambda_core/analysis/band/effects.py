@@ -169,7 +169,7 @@ class Effects:
             yield from range_effect(graded, ends, self.left_out)
 
     def _at_end(self, graded: Graded, number: int, resolver: Resolver) -> FloatArray:
-        """Return ln of relative results at an end of a range."""
+        """Return ln of relative results at a range's end."""
         end = (graded.low, graded.high)[number]
         if end == graded.value:
             return np.zeros(len(self.names))
