@@ -7,6 +7,8 @@ from collections.abc import Sequence
 
 NONE = "-"  # stands where there is no number
 _LEAST_BAND = 1e-2  # of a number: no model knows more than four digits of it
+_LEAST_SWING = 1e-3  # of a mean: a smaller swing does not round it
+_NOTHING = 5e-5  # of any unit of the interface: smaller numbers are zeros of the computation
 LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
@@ -22,7 +24,7 @@ def number(value: float | None, digits: int = 1) -> str:
 
 def digits(value: float | None, count: int = 4) -> str:
     """Write a number with some significant digits."""
-    return NONE if value is None else f"{0.0 if abs(value) < 5e-5 else value:.{count}g}"
+    return NONE if value is None else f"{0.0 if abs(value) < _NOTHING else value:.{count}g}"
 
 
 def counted(count: int, thing: str) -> str:
@@ -64,6 +66,16 @@ def plus_minus(value: float | None, half_width: float | None) -> str:
         return number(value)
     digits = max(0, 1 - math.floor(math.log10(half_width)))
     return f"{number(value, digits)} ± {number(half_width, digits)}"
+
+
+def swinging(mean: float, swing: float) -> str:
+    """Write a mean with its swing.
+
+    Both have the decimals that two digits of the swing need, a swing below a thousandth of the mean has its own.
+    """
+    if swing >= max(_LEAST_SWING * abs(mean), _NOTHING):
+        return plus_minus(mean, swing)
+    return f"{digits(mean)} ± {digits(swing, 2)}"
 
 
 def interval(values: Sequence[float], digits: int) -> str:

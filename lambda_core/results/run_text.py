@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import NONE, digits
+from lambda_core.domain.number_text import NONE, swinging
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import lines_under, wrapped
 from lambda_core.results.band_text import banded
@@ -262,7 +262,7 @@ def _wall(summary: Summary) -> list[str]:
 def _pair(value: float, width: float, unit: str, units: UnitSystem) -> str:
     """Write a number with its swing and unit."""
     mean, swing = (units.value(number, unit) for number in (value, width))
-    return f"{digits(mean)} ± {digits(swing, 2)} {units.unit(unit)}"
+    return f"{swinging(mean, swing)} {units.unit(unit)}"
 
 
 def _length(value: float, units: UnitSystem) -> str:
@@ -271,4 +271,4 @@ def _length(value: float, units: UnitSystem) -> str:
 
 def _swung(one: Swing, axis: int, units: UnitSystem) -> str:
     mean, swing = (units.value(values[axis], "um") for values in (one.mean_um, one.swing_um))
-    return f"{digits(mean, 3)} ± {digits(swing, 2)} {units.unit('um')}"
+    return f"{swinging(mean, swing)} {units.unit('um')}"
