@@ -139,6 +139,16 @@ def test_every_node_of_a_machine_has_a_band() -> None:
     assert {"thermal.housing_area", "thermal.conductances"} <= sources
 
 
+@pytest.mark.full
+def test_laws_of_balls_and_of_rollers_are_told_apart() -> None:
+    """Their laws of one role have other alternatives."""
+    found = api.thermal(tomllib.loads(shaft_text("motor-shaft", "motor")), band=True)
+    assert found.model_band is not None
+    names = [one.name for one in found.model_band.band("housing temperature").contributors]
+    assert len(set(names)) == len(names)
+    assert {f"law of rolling_resistance of {bearing}" for bearing in ("fan", "belt")} <= set(names)
+
+
 def test_rollers_at_computed_temperatures_have_their_bands() -> None:
     rollers = {**WARM, "bearing": {"designation": "SKF NU 208 ECP"}}
     found, model = api.quasistatic(rollers, band=True), ready_model(rollers, is_static=True)

@@ -6,6 +6,7 @@ see follows the temperatures, and results follow what contacts see.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -112,7 +113,7 @@ def following(
 def _by_losses(found: FoundTemperatures, each: Sequence[BearingEffects], labels: Sequence[str]) -> Iterator[_Shared]:
     """Yield the effects of all bearings.
 
-    Laws of the same name err together in all of them.
+    Laws of the same name err together in all of them; those of balls and of rollers have other alternatives.
     """
     warming = found.by_loss()
     groups: dict[tuple[str, int], dict[int, Effect]] = {}
@@ -121,14 +122,16 @@ def _by_losses(found: FoundTemperatures, each: Sequence[BearingEffects], labels:
             is_own = effect.name.startswith(_OF_ONE_BEARING) and labels[number]
             name = f"{labels[number]}: {effect.name}" if is_own else effect.name
             groups.setdefault((name, len(effect.alternatives)), {})[number] = effect
+    several = {name for name, times in Counter(name for name, _ in groups).items() if times > 1}
     for (name, count), members in groups.items():
         moved = np.zeros((count, len(found.names)))
         for number, effect in members.items():
             loss = effect.alternatives[:, each[number].names.index(LOSS)]
             moved += np.outer(loss, warming[:, number])
         first = next(iter(members.values()))
+        whose = f"{name} of {', '.join(labels[number] for number in members)}" if name in several else name
         results = {number: effect.alternatives for number, effect in members.items()}
-        yield _Shared(Effect(name, first.source, moved, first.is_range), results)
+        yield _Shared(Effect(whose, first.source, moved, first.is_range), results)
 
 
 def _by_conductances(found: FoundTemperatures) -> Iterator[_Shared]:
