@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
 
 _RPM = 30.0 / math.pi
+_SLOPE = 1e-5  # [rad] of a ring below which rollers hardly lean on ribs
 _ASSUMED = (
     "rollers roll without sliding; the cage is left out",
     "torque and capacitance are means over four places of the rollers in one pitch; loads, pressures and films are the "
@@ -203,7 +204,7 @@ def roller_statics(
             ring_shape(ring, waves.counts, amplitudes(bearing, state)[ring]) for ring, waves in waves_by_ring(bearing)
         ],
         "bearing_capacitance_nF": _between_rings(solved),
-        "capacitance_note": _note(state, solved),
+        "capacitance_note": _note(bearing, solved),
         "shoulders": [],
         "contacts": _contacts(bearing, solved),
         "rollers": _of_rollers(bearing, solved, found, limit),
@@ -261,11 +262,20 @@ def _between_rings(solved: SolvedRollers) -> float | None:
     return finite(sum(each) / len(each)) if each else None
 
 
-def _note(state: RollerEquilibrium, solved: SolvedRollers) -> str:
+def _note(bearing: RollerBearing, solved: SolvedRollers) -> str:
+    """Explain what the capacitance lacks.
+
+    A tilted raceway pushes cylinders along their axes by its slope times their load, a force of second order, which
+    the equilibrium does not have; with friction and in motion they lean on a rib, which adds its film.
+    """
     if not solved.electric:
         return ""
+    state = solved.state
     loads = np.column_stack([state.inner.sum(axis=1), state.outer.sum(axis=1)])
-    return capacitance_note(loads, solved.electric[0].contacts, "roller")
+    told = [capacitance_note(loads, solved.electric[0].contacts, "roller")]
+    if not bearing.is_conical and bearing.ribs and float(np.hypot(*state.ring[3:])) > _SLOPE:
+        told.append("a tilted ring makes rollers lean on ribs: electric and run count these films, too")
+    return "; ".join(filter(None, told))
 
 
 def headline_of(model: RollerModel, state: RollerEquilibrium) -> str:

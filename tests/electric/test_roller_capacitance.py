@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -120,6 +121,24 @@ def test_the_quasi_static_capacitance_is_continuous_where_rollers_lift_off(still
         at = replace(solved, states=(replace(solved.state, rollers=moved, inner=inner),))
         found.append(with_friction(model, at).electric[0].contacts[roller, 0])
     np.testing.assert_allclose(found, found[1], rtol=1e-3)
+
+
+def test_rollers_of_a_tilted_ring_lean_on_ribs_in_the_circuit_alone(tmp_path: Path) -> None:
+    """Compare single contacts with and without friction.
+
+    Those with the inner ring agree; the outer ring of the NU has the ribs, whose films the operating point leaves out
+    and says so.
+    """
+    case = api.init_case("nu", bearing="SKF NU 208 ECP", path=tmp_path / "nu.toml")
+    tilted = [*SMOOTH[:2], "loads.radial=5 kN", "loads.moment_y=5 N m", "bodies.inner_ring.tilt_y=free"]
+    still, found = api.quasistatic(case, tilted, band=False), solve(ready_model(case, tilted, is_static=True))
+    each = 1e12 * found.contacts[:, :, CONTACT_CHANNELS.index("capacitance")]
+    own = np.array([one.capacitance_pF for one in still.contacts]).reshape(-1, 2)
+    pressed = found.contacts[:, 0, CONTACT_CHANNELS.index("load")] > 100.0
+    np.testing.assert_allclose(each[pressed, 0], own[pressed, 0], rtol=0.05)
+    assert (each[pressed, 1] > 1.2 * own[pressed, 1]).all()
+    assert "lean on ribs: electric and run count these films" in still.capacitance_note
+    assert api.quasistatic(case, tilted[:3], band=False).capacitance_note == ""
 
 
 def test_asperities_that_short_slow_rollers_leave_no_capacitance(run: Result) -> None:
