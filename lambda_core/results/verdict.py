@@ -219,7 +219,8 @@ def _written(value: float, unit: str, units: UnitSystem) -> str:
     if unit == "h":
         return f"{number(value, 0)} h"
     shown = units.value(value, unit)
-    text = f"{shown:.3g}" if abs(shown) < 1e3 else number(float(f"{shown:.4g}"), 0)
+    short = float(f"{shown:.3g}")
+    text = f"{short:g}" if abs(short) < 1e3 else number(float(f"{shown:.4g}"), 0)
     return f"{text} {units.unit(unit)}".rstrip()
 
 

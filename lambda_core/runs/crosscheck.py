@@ -68,14 +68,14 @@ class CrossCheck(Answer):
         "of the energy together; null with a free cage"
     )
     deviation: float | None = Field(
-        description="largest distance of rings, cage and gripped balls from the reference's, root mean square over "
-        "their states, in units of tolerance times scale; null with a free cage"
+        description="largest distance of rings, cage and gripped balls or rollers from the reference's, root mean "
+        "square over their states, in units of tolerance times scale; null with a free cage"
     )
     cvode_deviation: float | None = Field(
         description="the same distance of CVODE at our tolerance from the reference; null with a free cage"
     )
     drift: float | None = Field(
-        description="the same of the unloaded balls: nothing brings their azimuth back; "
+        description="the same of unloaded balls or rollers: nothing brings their azimuth back; "
         "null when there are none, and with a free cage"
     )
     agree: bool = Field(
@@ -89,21 +89,21 @@ class CrossCheck(Answer):
         rows = {"ours": self.ours, "CVODE": self.cvode, f"CVODE at {_FINER * self.tolerance:g}": self.reference}
         lines = [head, *(_line(name, row) for name, row in rows.items() if row is not None)]
         distances = {
-            "rings, gripped balls": self.deviation,
+            "rings, gripped elements": self.deviation,
             "the same of CVODE": self.cvode_deviation,
-            "unloaded balls": self.drift,
+            "unloaded elements": self.drift,
         }
         for name, distance in distances.items():
             if distance is not None:
-                lines.append(f"  {name:<22}{distance:.2f} tolerances apart at most")
+                lines.append(f"  {name:<25}{distance:.2f} tolerances apart at most")
         bound = "" if self.power_bound is None else f"  (at most {100.0 * self.power_bound:.4f} %)"
-        lines.append(f"  {'dissipated power':<22}{100.0 * self.power_deviation:+.4f} %{bound}")
+        lines.append(f"  {'dissipated power':<25}{100.0 * self.power_deviation:+.4f} %{bound}")
         return "\n".join([*lines, f"  the two {'agree' if self.agree else 'DO NOT AGREE'}"])
 
 
 def _line(name: str, row: Integration) -> str:
     spread = f" +- {row.power_ci_W:.4f}" if row.power_ci_W is not None else ""
-    return f"  {name:<22}{row.power_W:.4f}{spread} W  {row.calls} calls  {row.jacobians} Jacobians"
+    return f"  {name:<25}{row.power_W:.4f}{spread} W  {row.calls} calls  {row.jacobians} Jacobians"
 
 
 @dataclass(frozen=True)

@@ -109,3 +109,18 @@ def test_shorted_needles_are_no_balls_and_have_no_dashes(tmp_path: Path, capsys:
     told = " ".join(capsys.readouterr().out.split())
     assert "some at both rings of a roller: the bearing has no capacitance" in told
     assert "contacts -" not in told
+
+
+def test_a_report_of_rollers_has_their_ribs_and_no_power_of_ten(tmp_path: Path) -> None:
+    """Read load and film of a rib, and thrust.
+
+    The report left ribs out, and wrote a thrust of 1 kN as 1e+03 N.
+    """
+    changes = ["loads.radial=5 kN", "loads.axial=1 kN"]
+    source = api.init_case("rollers", bearing="SKF NJ 208", path=tmp_path / "rollers.toml", changes=changes)
+    page = api.report(source, out=tmp_path / "rollers.html").read_text(encoding="utf-8")
+    found = api.quasistatic(source, band=False)
+    assert "e+03" not in page
+    assert "1 000 N" in page
+    for words in ("largest load of a rib", f"{found.rollers.rib_load_N:.3g}", "smallest film of a rib"):
+        assert words in page

@@ -19,6 +19,7 @@ from lambda_core.results.text import PLACED
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import ResolvedValue
+    from lambda_core.results.quasistatic import RollerStatics
     from lambda_core.results.verdict import Verdict
 
 
@@ -84,8 +85,20 @@ def more_figures(found: Any, units: UnitSystem = SI) -> list[tuple[str, str, str
     if found.film_parameter:
         label = quantity_of(found, "film_parameter").label
         rows.append((label, "..".join(rounded(v, 2) for v in found.film_parameter), ""))
-    rows.append(_vector(found, "inner_ring_tilt_mrad", units))
+    rows += [*_ribs(getattr(found, "rollers", None), units), _vector(found, "inner_ring_tilt_mrad", units)]
     return _known([*rows, *(_remaining(found, units) if not isinstance(found, BearingSummary) else ())])
+
+
+def _ribs(found: RollerStatics | None, units: UnitSystem) -> list[tuple[str, str, str]]:
+    """Return what ribs of rollers carry, where they do."""
+    if found is None or found.rib_load_N <= 0.0:
+        return []
+    film = None if found.rib_film_um is None else units.value(found.rib_film_um, "um")
+    return [
+        ("largest load of a rib", rounded(units.value(found.rib_load_N, "N")), units.unit("N")),
+        ("smallest film of a rib", rounded(film), units.unit("um")),
+        ("coefficient of friction of a rib", rounded(found.rib_friction), ""),
+    ]
 
 
 def _known(rows: Iterable[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
