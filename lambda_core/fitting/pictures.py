@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.fitting.report import FitReport, FittedPoint
 
 _LIMIT = 2.0  # standardised residual between whose marks 95 % of the points lie
+_DECADES = 100.0  # largest over smallest value, from which an axis is logarithmic
 _UNITS = {"speed": "1/min", "radial load": "kN", "axial load": "kN"}
 
 
@@ -80,7 +81,8 @@ def _unit(name: str, quantity: str) -> str:
 
 
 def _axis(report: FitReport, name: str) -> Axis:
-    return Axis(name, _unit(name, report.condition_quantities[name]))
+    unit, column = _unit(name, report.condition_quantities[name]), _column(report, report.points, name)
+    return Axis(name, unit, log=bool(column.min() > 0.0 and column.max() >= _DECADES * column.min()))
 
 
 def _column(report: FitReport, points: list[FittedPoint], name: str) -> FloatArray:

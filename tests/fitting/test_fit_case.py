@@ -122,6 +122,15 @@ def test_text_and_pictures_show_every_point(report: api.FitReport) -> None:
     assert len(residuals.panels) == 3
 
 
+def test_speeds_over_decades_have_a_logarithmic_axis(report: api.FitReport) -> None:
+    """Keep slow points apart that a linear axis puts together."""
+    assert not report.pictures()[0].panels[0].x.log
+    slow = [point.model_copy(update={"conditions": {**point.conditions, "speed": 0.5}}) for point in report.points[:2]]
+    wide = report.model_copy(update={"points": [*slow, *report.points[2:]]})
+    assert wide.pictures()[0].panels[0].x.log
+    assert [panel.x.log for panel in wide.pictures()[1].panels] == [True, False, False]
+
+
 def test_the_fitted_case_predicts_what_was_fitted(report: api.FitReport, tmp_path: Path) -> None:
     path = api.fitted_case(CASE, report, tmp_path / "fitted.toml")
     case = api.case(path)
@@ -194,14 +203,15 @@ def test_a_page_shows_values_points_and_pictures(report: api.FitReport, tmp_path
     assert report.sentence in page
     for words in ("fitted values", "correlations", "measured and predicted values", "patterns of the residuals"):
         assert f">{words}" in page
-    assert "0.0400 ± " in page
+    assert "0.0400\u00a0±\u00a0" in page
+    assert "<td>N\u00a0mm" in page
     assert page.count('<figure class="picture"') == len(report.pictures()) == 2
     assert '<p class="state">fitted</p>' in page
     doubtful = report.model_copy(update={"warnings": ["The residuals show a trend."]})
     page = api.report([doubtful, report], tmp_path / "two.html", appendices=["all"], units="us").read_text()
     assert '<p class="state bad">fitted with reservations</p>' in page
     assert "The residuals show a trend." in page
-    assert "lbf in" in page
+    assert "lbf\u00a0in" in page
 
 
 @pytest.mark.full

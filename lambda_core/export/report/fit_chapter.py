@@ -67,7 +67,13 @@ def _row(one: FittedParameter) -> tuple[str, ...]:
     if one.standard_error is not None:
         low, high = one.interval_95
         value, interval = compact(one.value, one.standard_error), f"{low:.4g} .. {high:.4g}"
-    return (one.name, value, interval, f"{one.low:.4g} .. {one.high:.4g}", one.unit, one.range_source)
+    numbers = map(_in_one_line, (value, interval, f"{one.low:.4g} .. {one.high:.4g}", one.unit))
+    return (one.name, *numbers, one.range_source)
+
+
+def _in_one_line(text: str) -> str:
+    """Return a number with its error or unit, unbroken."""
+    return text.replace(" ", "\u00a0")
 
 
 def _correlations(report: FitReport) -> Table:
@@ -82,7 +88,8 @@ def _points(report: FitReport, units: UnitSystem) -> Table:
     rows = [
         (
             str(p.line), p.quantity, *(f"{units.value(value, p.unit):.4g}" for value in (p.measured, p.predicted)),
-            " .. ".join(f"{units.value(end, p.unit):.4g}" for end in p.new_measurement_band), units.unit(p.unit),
+            " .. ".join(f"{units.value(end, p.unit):.4g}" for end in p.new_measurement_band),
+            _in_one_line(units.unit(p.unit)),
             f"{p.standardised_residual:+.1f}{' outlier' if p.is_outlier else ''}",
             f"{100.0 * p.left_out_error / p.measured:+.2g} %",
         )
@@ -96,7 +103,7 @@ def _unseen(report: FitReport, units: UnitSystem) -> Table:
     rows = [
         (
             str(p.line), p.quantity, *(f"{units.value(value, p.unit):.4g}" for value in (p.measured, p.predicted)),
-            " .. ".join(f"{units.value(end, p.unit):.4g}" for end in p.band), units.unit(p.unit),
+            " .. ".join(f"{units.value(end, p.unit):.4g}" for end in p.band), _in_one_line(units.unit(p.unit)),
             "inside" if p.is_inside else "outside",
         )
         for p in report.predictions
