@@ -15,11 +15,11 @@ from benchmarks.cases import MIDDLE
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
 from lambda_core import api
+from lambda_core.studies.study_files import example_texts
 
 PROCESSES = (1, 2, 4)
 _TURNS = 1.0  # of the cage
 _PATIENCE = 120.0  # wall time [s]
-_MAP = Path(__file__).parents[1] / "examples" / "studies" / "friction-map.toml"
 _WORKERS = 2  # that the targets are for
 _MUST, _GOAL = 30.0, 0.85  # wall time of the map [s]; parallel efficiency
 
@@ -64,7 +64,7 @@ def together(count: int, rounds: int) -> float:
 
 def friction_map(points: int) -> dict[str, Any]:
     """Return the shipped friction map with `points` speeds."""
-    study = tomllib.loads(_MAP.read_text(encoding="utf-8"))
+    study = tomllib.loads(example_texts()["friction-map"])
     study["parameters"][0]["points"] = points
     return study
 

@@ -14,6 +14,7 @@ from benchmarks.accuracy import Outcome, trajectory_totals
 from benchmarks.cases import BALLS, MIDDLE, with_balls, without_samples
 from benchmarks.handle import Handle
 from benchmarks.integrators import Problem, cvode
+from benchmarks.parallel import friction_map
 from benchmarks.passage import Horizon, passage
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -97,3 +98,9 @@ def test_a_shaft_is_compared_with_its_bearings(
         assert row["bearings evaluated"] == of_all - row["bypasses"] >= row["steps"] > 0
     assert rows["machine"]["bypasses"] > 0 == rows["left"]["bypasses"]
     assert target["reached"] == pytest.approx(rows["machine"]["ms"] / (rows["left"]["ms"] + rows["right"]["ms"]))
+
+
+def test_the_friction_map_has_the_speeds_that_are_asked_for() -> None:
+    study = friction_map(7)
+    assert study["parameters"][0]["path"] == "operation.speed"
+    assert study["parameters"][0]["points"] == 7
