@@ -112,8 +112,22 @@ class MachineSubject(Subject):
             except UsageError as error:
                 refused = refused or error
                 continue
+            if own is None and found.law:
+                self._refuse_other_laws(found)
             return replace(found, path=self._place(found.path, own), models=())
         return self._option(name.strip(), equals, ends, refused)
+
+    def _refuse_other_laws(self, found: Graded) -> None:
+        """Refuse one parameter of bearings with different laws."""
+        role = found.path.split(".")[1]
+        laws = {
+            name: next((roles[role].model.name for roles in model.laws.values() if role in roles), found.law)
+            for name, model in self._machine.bearing_models.items()
+        }
+        if len(set(laws.values())) > 1:
+            listed = ", ".join(f"{law} of {name}" for name, law in laws.items())
+            own = " or ".join(f"bearings.{name}.{found.path}" for name, law in laws.items() if law == found.law)
+            raise UsageError(f"--vary {found.short}: bearings have different laws of {role} ({listed}): write {own}")
 
     def _place(self, path: str, bearing: str | None) -> str:
         """Return the machine's place of a bearing's option.

@@ -152,6 +152,17 @@ def test_wrong_parameters_of_a_machine_are_refused(vary: str, said: str, subject
     assert said in str(caught.value)
 
 
+def test_one_parameter_of_balls_and_rollers_is_refused() -> None:
+    """Name the bearings whose laws differ.
+
+    The law of the balls was given to the rollers, and the file of measurements was blamed.
+    """
+    mixed = subject_of(tomllib.loads(shaft_text("motor-shaft", "motor")))
+    with pytest.raises(UsageError, match=r"different laws of elastic_hysteresis .*: write bearings\.fan\.parameters"):
+        mixed.varied("loss_factor")
+    assert mixed.varied("mu").path == "parameters.boundary_friction.mu"
+
+
 def test_a_bearing_that_is_not_there_is_refused(machine: str) -> None:
     with pytest.raises(LambdaError, match="nearest: left"):
         subject_of(tomllib.loads(machine), bearing="lefft")
