@@ -214,6 +214,6 @@ def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pyte
 def test_a_point_without_a_solution_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.MAX_ITERATIONS", {False: 5000, True: 2})
     monkeypatch.setattr("lambda_core.solver.drivers.equilibrium._FRESH_STARTS", 0)
-    named = r"6308 \(SKF\) at 4\.92 rpm, 1\.6\d kN radial, 114 N axial, oil at 20 degC: .* needs none"
+    named = r"6308 \(SKF\) at 4\.92 rpm, 1\.6\d kN radial, 114 N axial, oil at 20 degC: .* nearby"
     with pytest.raises(SolverError, match=named):
         solve(api.check(_point("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0)))
