@@ -19,18 +19,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import CaseError, LambdaError, Problem
 from lambda_core.domain.lubrication import Lubrication
-from lambda_core.domain.units import parse, show
+from lambda_core.domain.units import parse
 from lambda_core.domain.value_status import ESTIMATED, ValueStatus
 from lambda_core.elements.roller.rib import tapered_angles
 from lambda_core.elements.roller.roller_bearing import RollerBearing, is_conical
 from lambda_core.elements.roller.roller_capacitance import Dielectric
 from lambda_core.elements.roller.roller_clearance import roller_clearance
 from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState
-from lambda_core.elements.roller.roller_ratings import (
-    roller_dynamic_rating,
-    roller_fatigue_load_limit,
-    roller_static_rating,
-)
 from lambda_core.model.bearing_model import BearingModel, ResolvedValue
 from lambda_core.model.bodies.resolve_bodies import ONE_ROW
 from lambda_core.model.bodies.resolve_elastic import bent_rings
@@ -61,6 +56,7 @@ from lambda_core.model.roller_loads import (
     ring_masses,
 )
 from lambda_core.model.roller_mounting import in_operation
+from lambda_core.model.roller_rated import ratings_of
 from lambda_core.model.settings.contamination import contamination_of
 from lambda_core.views.roller_profile import RollerShape
 
@@ -346,7 +342,7 @@ def roller_geometry(
         "pitch_diameter": number["pitch_diameter"],
         "contact_angle": number["contact_angle"],
     }
-    dynamic, static, limit = _ratings(case, row, shape, ledger)
+    dynamic, static, limit = ratings_of(case, row, shape, ledger)
     half = (
         shape["contact_angle"]
         and tapered_angles(shape["roller_diameter"], shape["pitch_diameter"], shape["contact_angle"]).half
@@ -442,25 +438,6 @@ def _boundary(case: Case, row: RollerRow | None, ledger: Ledger) -> tuple[float,
         else:
             ledger.problem(f"bearing.geometry.{name}", "is required: the catalogue has no such bearing")
     return (found[0], found[1], found[2]) if len(found) == len(_BOUNDARY) else None
-
-
-def _ratings(case: Case, row: RollerRow | None, shape: dict[str, Any], ledger: Ledger) -> tuple[float, float, float]:
-    """Return C, C_0 and C_u [N].
-
-    They are those of the case, those of the catalogue, or those of ISO 281 and ISO 76 for the geometry.
-    """
-    inline = case.bearing.geometry
-    dynamic = getattr(inline, "dynamic_rating", None) or (row.dynamic_rating.value if row else None)
-    static = getattr(inline, "static_rating", None) or (row.static_rating.value if row else None)
-    if dynamic is None:
-        dynamic = roller_dynamic_rating(**shape)
-        ledger.assume(f"dynamic rating {show(dynamic, 'force', 4)} after ISO 281 from the inner geometry")
-    if static is None:
-        static = roller_static_rating(**shape)
-        ledger.assume(f"static rating {show(static, 'force', 4)} after ISO 76 from the inner geometry")
-    if row is not None and row.fatigue_limit is not None:
-        return float(dynamic), float(static), row.fatigue_limit.value
-    return float(dynamic), float(static), roller_fatigue_load_limit(float(static), shape["pitch_diameter"])
 
 
 def _clearance(case: Case, found: RollerDesignation | None, bore: float, ledger: Ledger) -> float:

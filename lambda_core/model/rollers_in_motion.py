@@ -254,13 +254,9 @@ def with_rollers(
     )
     laws[contact] = {"cage_contact": chosen(contact, "cage_contact", name)}
     values, told = _of_laws(model, laws, case)
-    ratings = tuple(
-        ResolvedValue(f"bearing.{name}", getattr(rollers, name), "force", "of the rollers", "", "given")
-        for name in ("dynamic_rating", "static_rating", "fatigue_limit")
-    )
     if rollers.limiting_speed is not None:
         speed = ("bearing.limiting_speed", rollers.limiting_speed, "rotational_speed")
-        ratings = (*ratings, ResolvedValue(*speed, "catalogue", "", "published"))
+        values = (*values, ResolvedValue(*speed, "catalogue", "", "published"))
     return replace(
         model,
         laws=laws,
@@ -269,7 +265,7 @@ def with_rollers(
         rollers=rollers if model.mounting is None else with_clearance(rollers, model.geometry.clearance),
         elastic={**waves_of_rings(rollers), **model.elastic},
         assumptions=tuple(dict.fromkeys((*told, *assumptions))),
-        values=(*sizes, *values, *ratings),
+        values=(*sizes, *values),
     )
 
 

@@ -124,3 +124,16 @@ def test_a_report_of_rollers_has_their_ribs_and_no_power_of_ten(tmp_path: Path) 
     assert "1 000 N" in page
     for words in ("largest load of a rib", f"{found.rollers.rib_load_N:.3g}", "smallest film of a rib"):
         assert words in page
+
+
+def test_ratings_of_rollers_have_their_sources() -> None:
+    """Name case or catalogue; all were "of the rollers"."""
+    own = {"dynamic_rating": "70 kN"}
+    source = case("SKF NU 208 ECP")
+    written = source | {"bearing": {"designation": "SKF NU 208 ECP", "geometry": own}}
+    for given, sources in ((source, ("SKF", "SKF", "SKF")), (written, ("case", "SKF", "SKF"))):
+        model = api.check(given)
+        found = {value.path: value for value in model.values}
+        each = [found[f"bearing.{name}"] for name in ("dynamic_rating", "static_rating", "fatigue_limit")]
+        assert [value.source.split(",")[0] for value in each] == list(sources)
+    assert model.rollers.dynamic_rating == 70_000.0

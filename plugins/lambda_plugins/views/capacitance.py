@@ -23,7 +23,7 @@ def capacitance(run: RunData, options: Options) -> ViewData:
     time, values = run["time"][rows], 1e12 * run["bearing_capacitance"][rows]
     known = np.isfinite(values)
     if not known.any():
-        raise NotApplicable("asperities short every ball in this run: there is no capacitance")
+        raise NotApplicable("asperities short a rolling element at both rings in every sample: there is no capacitance")
     total = trace("bearing", 1e3 * time, np.where(known, values, np.nan), "total")
     contacts: list[Series] = []
     for ring in ("inner", "outer"):
