@@ -11,12 +11,17 @@ import random
 from contextlib import closing
 from typing import Any
 
+import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.checking import check_bearing
 from lambda_core.solver.drivers.equilibrium import continue_static, solve
+from lambda_core.solver.drivers.solver_context import SolverContext
+from lambda_core.solver.drivers.viscosity_continuation import StaticReport, by_viscosity_continuation
+from lambda_core.solver.records import STATIC_REPORT
 
 HARD = [
     # balls that rest on the inner ring with a penetration of nanometres, below the step of the difference quotients
@@ -217,3 +222,22 @@ def test_a_point_without_a_solution_is_named(monkeypatch: pytest.MonkeyPatch) ->
     named = r"6308 \(SKF\) at 4\.92 rpm, 1\.6\d kN radial, 114 N axial, oil at 20 degC: .* nearby"
     with pytest.raises(SolverError, match=named):
         solve(api.check(_point("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0)))
+
+
+def test_the_way_through_warmer_oil_is_given_up_where_it_leads_nowhere() -> None:
+    """Count searches of a model that has solutions in warmer oil only.
+
+    They took a minute of two rows of balls in cold oil.
+    """
+    found = solve(api.check("6208-axial-1300"))
+    inlet, asked = found.context.model.oil.temperature, 0
+
+    def search(context: SolverContext, state: FloatArray) -> StaticReport:
+        nonlocal asked
+        asked += 1
+        if context.model.oil.temperature < inlet + 4.0:
+            raise SolverError("none")
+        return np.zeros(1, dtype=STATIC_REPORT)
+
+    assert by_viscosity_continuation(found.context, found.state, search) is None
+    assert asked <= 20

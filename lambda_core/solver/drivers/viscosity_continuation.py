@@ -22,6 +22,7 @@ from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 StaticReport = NDArray[np.void]  # a STATIC_REPORT record
 _WARMER = (5.0, 10.0, 20.0, 40.0)  # where the way may begin [K]
 _TRIES = 12  # steps on the way, those that fail included
+_FAILURES = 12  # in all, each of which takes a second or two of two rows of balls
 # Solves for the equilibrium from a state, in place, and returns its report.
 Solve = Callable[[SolverContext, FloatArray], StaticReport]
 
@@ -40,21 +41,28 @@ def by_viscosity_continuation(
     solve : callable
         Raises SolverError where it finds none.
     """
+    failed = 0
     for warmer in _WARMER:
         state, left, step = start.copy(), warmer, warmer
         try:
             solve(_thinner(context, warmer), state)
         except SolverError:
+            failed += 1
             if is_late():
                 raise
+            if failed >= _FAILURES:
+                return None
             continue
         for _ in range(_TRIES):
             trial, goal = state.copy(), max(left - step, 0.0)
             try:
                 report = solve(_thinner(context, goal), trial)
             except SolverError:
+                failed += 1
                 if is_late():
                     raise
+                if failed >= _FAILURES:
+                    return None
                 step *= 0.5
                 continue
             if goal == 0.0:
