@@ -225,7 +225,7 @@ def test_a_point_without_a_solution_is_named(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_the_way_through_warmer_oil_is_given_up_where_it_leads_nowhere() -> None:
-    """Count searches of a model that has solutions in warmer oil only.
+    """Count searches where warmer oil alone has solutions.
 
     They took a minute of two rows of balls in cold oil.
     """

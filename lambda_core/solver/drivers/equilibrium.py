@@ -369,7 +369,7 @@ def _no_equilibrium(context: SolverContext, report: StaticReport, *, friction: b
         return (
             f"{operating_point(context.model)}: no quasi-static equilibrium with friction {how_far}: loads and contact "
             "angles were found, a steady motion of the rolling elements was not: "
-            f"{_limitless(context) or 'try a speed or temperature nearby'}"
+            f"{_limitless(context) or 'try a speed or temperature nearby, or a run, which needs none'}"
         )
     held = "is every free degree of freedom of the ring held by a load or a support?"
     beyond = "; ".join([*operating_warnings(context.model), held])
