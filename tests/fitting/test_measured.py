@@ -294,7 +294,7 @@ def test_rollers_at_computed_temperatures_are_compared_there(tmp_path: Path) -> 
     assert torque.predicted == pytest.approx(answer.friction_torque_Nmm, rel=1e-6)
     assert oil.band == pytest.approx(answer.oil_temperature_degC_band, rel=1e-3)
     assert oil.band[0] < oil.predicted < oil.band[1]
-    assert abs(oil.predicted - 60.0) > 2.0
+    assert abs(oil.predicted - 60.0) > 1.0
 
 
 def test_a_series_of_a_machine_is_compared_with_its_bands(tmp_path: Path) -> None:

@@ -40,12 +40,12 @@ def test_d5_the_equilibrium_shorts_what_a_run_shorts() -> None:
 def test_contacts_without_load_are_not_shorted() -> None:
     load = np.array([[1.0, 1.0], [0.0, 0.0]])
     capacitance = np.array([[math.inf, 1e-12], [1e-12, 1e-12]])
-    assert capacitance_note(load, capacitance).startswith("asperities short 1 of 2 contacts under load (film")
-    assert "no capacitor" not in capacitance_note(load, capacitance)
+    assert capacitance_note(load, capacitance, "ball").startswith("asperities short 1 of 2 contacts under load (film")
+    assert "no capacitor" not in capacitance_note(load, capacitance, "ball")
 
 
 def test_a_ball_that_rests_by_its_weight_is_no_loaded_ball() -> None:
     load = np.array([[5000.0, 5001.0], [0.0, 1.0], [0.0, 0.0]])
     capacitance = np.array([[1e-10, 1e-10], [1e-12, math.inf], [1e-12, 1e-12]])
-    note = capacitance_note(load, capacitance)
+    note = capacitance_note(load, capacitance, "ball")
     assert note.startswith("asperities short 0 of 2 contacts under load and 1 of 1 others")
