@@ -73,15 +73,15 @@ def _command(name: str, arguments: str, processor: float, importing: float, modu
     return Budget(name, _COMMAND, tuple(arguments.split()), processor, importing, modules)
 
 
-RUN = f"run {DEFAULT} --duration 1ms --progress none"
+RUN = f"run {DEFAULT} --duration 1ms --progress none --band none"
 BUDGETS = (
     _command("--help", "--help", 0.4, 0.2, 440),
     _command("init", "init fresh --out {folder}/fresh.toml --force", 0.6, 0.4, 500),
     _command("check", f"check {DEFAULT}", 1.2, 0.7, 860),
     _command("show", "show {folder}/run.h5", 1.2, 0.4, 560),
     _command("db search", "db search 6208", 1.2, 0.6, 780),
-    _command("quasistatic", f"quasistatic {DEFAULT}", 1.2, 0.9, 1220),
-    _command("run, 1 ms", f"{RUN} --out {{folder}}/again.h5 --force", 1.5, 1.0, 1280),
+    _command("quasistatic, no band", f"quasistatic {DEFAULT} --band none", 1.2, 0.9, 1220),
+    _command("run, 1 ms, no band", f"{RUN} --out {{folder}}/again.h5 --force", 1.5, 1.0, 1280),
     Budget("first picture of the builder", _PAINT, (), 1.0, 0.6, 800),
 )
 
