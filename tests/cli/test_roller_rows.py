@@ -83,6 +83,7 @@ def test_rollers_count_from_one_as_contacts_do(tmp_path: Path) -> None:
     [
         ("NU 208", ["bearing.rollers.rib_height=6 mm"], "rib_height must be below half of the roller's diameter, 5.5"),
         ("NU 208", ["bearing.rollers.roller_length=30 mm"], "30 mm: a roller must fit into the bearing's width, 18 mm"),
+        ("NU 208", ["bearing.rollers.roller_diameter=1e-17 nm"], "is too thin for a roller of 11 mm: at most 20"),
         ("NU 208", ["bearing.rollers.end_radius=0.1 mm"], "end_radius must be above 4.5 mm, where the end touches"),
         ("32216", ["bearing.rollers.end_radius=1 mm"], "end_radius leaves no contact with the rib: the sphere end"),
         ("32216", ["bearing.rollers.contact_height=30 mm"], "contact_height must be below the large end's diameter"),

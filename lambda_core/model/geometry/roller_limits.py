@@ -14,6 +14,8 @@ from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
 from lambda_core.elements.roller.slices import SLICES
 from lambda_core.model.ledger import Ledger
 
+SLENDEREST = 20.0  # length over diameter of any roller; needles have 3 to 10 (ISO 5593)
+
 
 def is_possible(bearing: RollerBearing, ledger: Ledger) -> bool:
     """Tell whether a bearing can be built.
@@ -35,6 +37,11 @@ def _impossible(bearing: RollerBearing) -> Iterator[tuple[str, str]]:
             "roller_length",
             f"{show(bearing.length, 'length', 4)}: a roller must fit into the bearing's width, {room}",
         )
+    if bearing.length > SLENDEREST * bearing.diameter:
+        diameter, length = (show(size, "length", 4) for size in (bearing.diameter, bearing.length))
+        words = f"{diameter} is too thin for a roller of {length}: at most {SLENDEREST:g} diameters long"
+        yield "roller_diameter", words
+        return
     deepest = float(bearing.drops(SLICES).max())
     if not deepest < half:
         yield (
