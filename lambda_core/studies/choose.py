@@ -168,8 +168,6 @@ def choose(
     known = dict.fromkeys((*kinds(), *FAMILIES, *RIBS))
     if kind is not None and kind not in known:
         raise UsageError(unknown_name("kind of bearing", kind, known))
-    if isinstance(contamination, str) and contamination.replace(".", "", 1).isdigit():
-        contamination = float(contamination)
     wanted = _Wanted(radial, axial, speed, life, bore, outside, static_safety)
     shared = {
         "lubricant": {"name": oil, "temperature": temperature},
@@ -179,7 +177,9 @@ def choose(
         "requirements": {"life": life, "static_safety": static_safety},
         **({} if contamination is None else {"life": {"contamination": contamination}}),
     }
-    read_case({"name": "choice", "bearing": {"designation": "any"}, **shared})  # mistakes, once for all candidates
+    # mistakes, once for all candidates; numbers may come as texts from the command line
+    read = read_case({"name": "choice", "bearing": {"designation": "any"}, **shared})
+    contamination = None if contamination is None else read.life.contamination
     with closing(registry().catalogue()) as catalogue:
         every: list[AnyRow] = [*catalogue.bearings("", _ALL), *catalogue.rollers()]
         rows = [row for row in every if _is_from(row, maker) and _is_of_kind(row, kind)]

@@ -41,6 +41,11 @@ def test_given_cleanliness_makes_modified_lives_count(capsys: pytest.CaptureFixt
     assert best["basic_life_h"] < 20000.0 < best["life_h"]  # a_ISO above 1 at kappa of about 4
 
 
+def test_cleanliness_is_read_as_in_a_case() -> None:
+    number, text = (api.choose(**QUESTION, contamination=e_c, kind="deep groove", limit=1) for e_c in (1.0, "1 "))
+    assert text.candidates == number.candidates
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
