@@ -71,7 +71,7 @@ def plus_minus(value: float | None, half_width: float | None) -> str:
 def swinging(mean: float, swing: float) -> str:
     """Write a mean with its swing.
 
-    Both have the decimals that two digits of the swing need, a swing below a thousandth of the mean has its own.
+    Both have the decimals that two digits of the swing need. A swing below a thousandth of the mean does not round it.
     """
     if swing >= max(_LEAST_SWING * abs(mean), _NOTHING):
         return plus_minus(mean, swing)

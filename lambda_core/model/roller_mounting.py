@@ -25,7 +25,7 @@ def in_operation(case: Case, rollers: RollerBearing, catalogue: Catalogue, ledge
     inner, roller = (resolve_material(part, case, catalogue, apart).solid for part in ("inner", "balls"))
     found = resolve_geometry(balls.bearing, None, catalogue, apart)
     if found is None or apart.problems:
-        return rollers  # motion says what is wrong
+        return rollers  # the check of the case says what is wrong
     geometry, bought = found
     mounting = resolve_mounting(balls, geometry, bought, inner, roller, ledger)
     if mounting is None:

@@ -32,6 +32,7 @@ PROCESSORS = {
     "x86-64-v2": "of Intel since 2008 and AMD since 2011",
     "native": "of this machine",
 }
+_SERVING = "from lambda_core.export.fmu.unit_file import serve; serve()"
 _CPU, _FEATURES = "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"
 _VERSIONS = (2, 3)
 _STEP = 1e-4  # [s] between communication points, as a proposal
@@ -212,32 +213,31 @@ def _write_apart(task: Mapping[str, Any], processor: str, announce: Callable[[st
 
     Numba fixes the processor when it is imported. What the process announces is announced here.
     """
-    code = "from lambda_core.export.fmu.unit_file import serve; serve()"
     # A named processor has its own features and no others.
     settings = {_CPU: processor, _FEATURES: ""} if processor != "native" else {}
     clean = {name: value for name, value in os.environ.items() if name not in (_CPU, _FEATURES)}
-    command = [sys.executable, "-P", "-W", "ignore", "-c", code]
     heard, spoken = os.pipe()
-
-    def run() -> subprocess.CompletedProcess[str]:
-        try:
-            return subprocess.run(
-                command, input=json.dumps(task), stdout=spoken, stderr=subprocess.PIPE, text=True, env=clean | settings,
-                check=False,
+    with open(heard, encoding="utf-8") as sentences, ThreadPoolExecutor() as listener:
+        telling = listener.submit(_tell, sentences, announce)
+        try:  # in this thread: a request to stop ends the process
+            done = subprocess.run(
+                [sys.executable, "-P", "-W", "ignore", "-c", _SERVING], input=json.dumps(task), stdout=spoken,
+                stderr=subprocess.PIPE, text=True, env=clean | settings, check=False,
             )  # fmt: skip
         finally:
-            os.close(spoken)  # ends what is heard
-
-    with open(heard, encoding="utf-8") as sentences, ThreadPoolExecutor() as worker:
-        running = worker.submit(run)
-        for sentence in sentences:
-            if announce is not None:
-                announce(sentence.rstrip())
-        done = running.result()
+            os.close(spoken)
+        telling.result()
     if done.returncode == 0:
         return
     said = done.stderr.strip() or f"the process that writes it ended with {done.returncode}"
     raise (UsageError if done.returncode == UsageError.exit_code else SolverError)(said)
+
+
+def _tell(sentences: Iterable[str], announce: Callable[[str], None] | None) -> None:
+    """Announce what another process says, to its end."""
+    for sentence in sentences:
+        if announce is not None:
+            announce(sentence.rstrip())
 
 
 def serve() -> None:
