@@ -89,7 +89,7 @@ def check(
     case: CaseArgument,
     changes: SetOption = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Also print laws and all values with their sources.")
+        bool, typer.Option("--all", help="Also print laws, and every assumption with its source.")
     ] = False,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,7 +70,7 @@ class Checker:
                 if self._catalogue is None:
                     self._catalogue = api.catalogue()
                 model = api.check(_with_needed(tables, self._root), folder=folder, catalogue=self._catalogue)
-                return Check((), model, tuple(_values(model)), tuple(api.model_warnings(model)))
+                return Check((), model, tuple(api.value_reports(model)), tuple(api.model_warnings(model)))
         except api.CaseError as error:
             return Check(tuple(sorted(error.problems, key=self._order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
@@ -94,22 +94,6 @@ class Checker:
             if self._catalogue is not None:
                 self._catalogue.close()
                 self._catalogue = None
-
-
-def _values(model: BearingModel | MachineModel) -> Iterator[ValueReport]:
-    """Yield every value with its origin.
-
-    Those of a bearing on a shaft are at the place of that bearing.
-    """
-    from lambda_core.api import value_reports
-
-    for number, (name, bearing) in enumerate(model.bearing_models.items()):
-        for value in value_reports(bearing):
-            if name and value.path.startswith("bearing."):
-                own = f"bearings.{name}.{value.path.removeprefix('bearing.')}"
-                yield value.model_copy(update={"path": own})
-            elif number == 0:
-                yield value
 
 
 def plugin_faults() -> list[str]:

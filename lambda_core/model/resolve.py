@@ -10,7 +10,7 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pydantic import BaseModel
 
@@ -72,6 +72,9 @@ from lambda_core.model.settings.resolve_solver import resolve_solver
 from lambda_core.model.settings.resolve_thermal import check_thermal
 from lambda_core.model.settings.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.views.observer import Event, Observer
+
+if TYPE_CHECKING:
+    from lambda_core.model.machine_model import MachineModel
 
 
 class PluginSource(ModelSource, WatchSource, Protocol):
@@ -349,6 +352,12 @@ def case_hash(model: BearingModel) -> str:
             del data["geometry"][name]
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def model_hash(model: BearingModel | MachineModel) -> str:
+    """Return the hash of all that decides a model's numbers."""
+    parts = [*model.surroundings, *map(case_hash, model.bearing_models.values())]
+    return parts[0] if len(parts) == 1 else hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 def _plain(value: Any) -> Any:

@@ -18,7 +18,7 @@ from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.results.model_band import FIELDS, MachineBand, ModelBand
 from lambda_core.studies.definition import Study, read_study, validate_study
 from lambda_core.studies.design import Plan
-from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
+from lambda_core.studies.job import RUNS, Outcome, Task, lost, point_model, work
 from lambda_core.studies.optimise import Best, best_row, search
 from lambda_core.studies.pool import HERE, pool, usable_cores
 from lambda_core.studies.responses import asks_currents
@@ -244,11 +244,12 @@ def _fingerprint(plan: Plan, case_toml: str, names: tuple[str, ...]) -> str:
     """
     from lambda_core.analysis.electric.current_numbers import code_folder
     from lambda_core.laws.kernels import sources_key
+    from lambda_core.model.resolve import model_hash
     from lambda_core.solver.code_files import compiled_sources
 
     model = point_model(case_toml, plan.point(0).changes)
     sources = (*compiled_sources(), code_folder()) if asks_currents(names) else compiled_sources()
-    return f"{point_hash(model)} {sources_key(*sources)}"
+    return f"{model_hash(model)} {sources_key(*sources)}"
 
 
 def _work(

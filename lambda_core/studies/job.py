@@ -5,7 +5,6 @@ A task is plain data; kernels, catalogue and base case are kept by the process f
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import multiprocessing
 import time
@@ -81,12 +80,13 @@ def work(task: Task) -> Outcome:
     if _asked_to_stop:
         return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
     from lambda_core.analysis.thermal.temperatures import ready
+    from lambda_core.model.resolve import model_hash
 
     failed = len(failures_so_far())
     try:
         _be_ready(task.guests)
         model = point_model(task.case_toml, task.changes)
-        hash_ = point_hash(model)
+        hash_ = model_hash(model)
         model = ready(model)
         if task.mode == "quasi-static":
             state, values = "done", static_values(model, task.responses)
@@ -137,17 +137,6 @@ def _tables(case_toml: str) -> dict[str, Any]:
     from lambda_core.case.case_io import toml_tables
 
     return toml_tables(case_toml, "the case of the study")
-
-
-def point_hash(model: BearingModel | MachineModel) -> str:
-    """Return the hash of a point.
-
-    It covers all that decides the point's numbers.
-    """
-    from lambda_core.model.resolve import case_hash
-
-    parts = [*model.surroundings, *map(case_hash, model.bearing_models.values())]
-    return parts[0] if len(parts) == 1 else hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 @lru_cache(maxsize=1)

@@ -20,8 +20,9 @@ from pathlib import Path
 from types import TracebackType
 
 from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.model.resolve import model_hash
 from lambda_core.results.reader import Result
-from lambda_core.studies.job import Task, point_hash, resolve_point, work
+from lambda_core.studies.job import Task, resolve_point, work
 from lambda_core.studies.memo import Memo
 from lambda_core.studies.pool import Processes
 from lambda_core.studies.scheduler import Counts, Director, Report
@@ -103,7 +104,7 @@ def _answer(job: Job, folder: str) -> JobResult:
     started, memo = time.process_time(), Memo(Path(folder) / "points")
     try:
         model = resolve_point(case_text(job.case), job.changes)
-        hash_ = point_hash(model)
+        hash_ = model_hash(model)
         name = f"{hash_[:_DIGITS]}-{job.kind.replace(' ', '-')}-{_FORMAT}"
         kept = memo.find(name)
         if kept is not None:

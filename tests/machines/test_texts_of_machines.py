@@ -16,6 +16,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.domain.unit_systems import US
 from lambda_core.domain.wrapping import HEAD
+from lambda_core.export.report.chapters import model_inputs
 from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.model_band import Band, ModelBand
 
@@ -140,3 +141,47 @@ def test_a_circuit_without_a_source_names_the_one_that_it_takes() -> None:
     words = "the case names no source: two-level inverter, dc link 800 V"
     assert words in told(Electric())
     assert words not in told(Electric(sine=Sine.model_validate({"amplitude": "1 V", "frequency": "1 kHz"})))
+
+
+@pytest.fixture(scope="module")
+def motor() -> api.MachineModel:
+    """Resolve a ball and a roller bearing on one shaft."""
+    model = api.check(tomllib.loads(shaft_text("motor-shaft", "motor")))
+    assert isinstance(model, api.MachineModel)
+    return model
+
+
+def test_a_check_names_the_laws_and_values_of_every_bearing(motor: api.MachineModel) -> None:
+    report = api.describe(motor)
+    told = report.text(everything=True)
+    assert re.search(r"of fan\n +normal_contact +hamrock-brewe\n", told)
+    assert re.search(r"of belt\n +normal_contact +iso-line ", told)
+    assert "normal_contact" not in report.text()
+    values = {value.path: value.text for value in report.values}
+    assert values["bearings.fan.ball_count"] == "8"
+    assert values["bearings.belt.rollers.roller_count"] == "14"
+    assert values["lubricant.name"] == "arcanol-multi2"
+    assert values["bearings.fan.forces.ball_inner.models.normal_contact"] == "hamrock-brewe"
+    assert values["bearings.belt.forces.ball_inner.models.normal_contact"] == "iso-line"
+    assert len(values) == len(report.values)
+
+
+def test_bearings_alike_name_their_laws_once() -> None:
+    assert "of left, right\n" in api.describe(api.check(box())).text(everything=True)
+
+
+def test_a_report_has_the_inputs_of_every_bearing(motor: api.MachineModel) -> None:
+    """List values, laws and references of both bearings.
+
+    Those of the first stood for all.
+    """
+    inputs = model_inputs(motor)
+    given = {row[0] for row in inputs.given.rows}
+    assert {"bearings.fan.ball_count", "bearings.belt.rollers.roller_count", "lubricant.name"} <= given
+    sections = {table.caption for table in inputs.values}
+    assert {"bearings.fan", "bearings.belt", "bearings.belt.forces", "lubricant"} <= sections
+    users = {(role, law): elements for role, law, elements, *_ in inputs.laws.rows}
+    assert users["normal_contact", "iso-line"] == "ball inner (belt), ball outer (belt)"
+    assert users["rheology", "roelands"] == "ball inner, ball outer, rib outer (belt)"
+    references = {one.law for one in inputs.citation.laws}
+    assert {"normal_contact/hamrock-brewe", "normal_contact/iso-line"} <= references

@@ -10,20 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.export.report.input_tables import given_values, law_table, value_tables
 from lambda_core.export.report.key_tables import (
     Table,
     breakdown,
     contacts,
-    given_values,
     key_figures,
-    law_table,
     lives,
     machine_figures,
     machine_reactions,
     margins,
     margins_of_two,
     more_figures,
-    value_tables,
 )
 from lambda_core.export.report.sketch import bearing_sketch, load_sketch, shaft_sketch
 from lambda_core.results.verdict import Verdict
@@ -300,47 +298,44 @@ def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:
     """Return the inputs of a run, from its file."""
     from lambda_core.results.citation import citation
 
-    one = result.of_bearing(result.bearing_names[0])
-    hashes = dict(one.kernel_keys)
+    bearings = result.bearings if result.is_machine else {"": result.of_bearing()}
+    hashes = {name: key for one in bearings.values() for name, key in one.kernel_keys.items()}
     origin = [*result.versions.items(), ("machine code", hashes.pop("code", "native"))]
-    origin += [("plugin", name) for name in one.plugins]
+    origin += [("plugin", name) for name in result.plugins]
     keys = [(f"code of {name}", key[:16]) for name, key in sorted(hashes.items())]
+    values = {name: one.values for name, one in bearings.items()}
     return Inputs(
-        value_tables(one.values, units),
-        _sentences(result.of_machine().assumptions if result.is_machine else one.assumptions, units),
-        law_table(one.laws),
-        citation(one),
+        value_tables(values, units),
+        _sentences((result.of_machine() if result.is_machine else result).assumptions, units),
+        law_table({name: one.laws for name, one in bearings.items()}),
+        citation(result),
         result.case_toml,
         (*origin, *keys),
-        given_values(one.values, units),
+        given_values(values, units),
     )
 
 
-def _bearing_inputs(model: Any, units: UnitSystem) -> Inputs:
-    """Return the inputs of one resolved bearing."""
+def model_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
+    """Return the inputs of a case and its bearings."""
     from types import SimpleNamespace
 
     from lambda_core.results.citation import citation
     from lambda_core.results.provenance import Provenance
 
-    origin = Provenance.alone(model, {})
-    laws, versions = next(iter(origin.bearings.values())).laws(), origin.versions()
-    source: Any = SimpleNamespace(path=model.name, laws=laws, values=model.values, versions=versions)
+    bearings = model.bearing_models
+    origins = {name: Provenance.alone(one, {}) for name, one in bearings.items()}
+    laws = {name: next(iter(origin.bearings.values())).laws() for name, origin in origins.items()}
+    values = {name: one.values for name, one in bearings.items()}
+    versions = next(iter(origins.values())).versions()
+    each = {name: SimpleNamespace(laws=laws[name], values=values[name]) for name in bearings}
+    source: Any = SimpleNamespace(path=model.name, versions=versions, bearing="", bearings=each)
+    plugins = dict.fromkeys(name for one in bearings.values() for name in one.plugins)
     return Inputs(
-        value_tables(model.values, units),
+        value_tables(values, units),
         _sentences(model.assumptions, units),
         law_table(laws),
         citation(source),
         model.case_toml,
-        (*versions.items(), *(("plugin", name) for name in model.plugins)),
-        given_values(model.values, units),
+        (*versions.items(), *(("plugin", name) for name in plugins)),
+        given_values(values, units),
     )
-
-
-def model_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
-    """Return the inputs of a case.
-
-    Laws and values of its first bearing represent those that all share.
-    """
-    first = _bearing_inputs(next(iter(model.bearing_models.values())), units)
-    return replace(first, assumptions=_sentences(model.assumptions, units), case_toml=model.case_toml)

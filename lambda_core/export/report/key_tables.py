@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
-from lambda_core.domain.units import show
 from lambda_core.results.band_text import ends
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.machine_numbers import total
@@ -18,14 +17,11 @@ from lambda_core.results.quantity import quantities, quantity_of, remaining
 from lambda_core.results.text import PLACED
 
 if TYPE_CHECKING:
-    from lambda_core.model.bearing_model import ResolvedValue
     from lambda_core.results.quasistatic import RollerStatics
     from lambda_core.results.verdict import Verdict
 
 
 _NOTHING = 1e-9  # a number in the units of the interface below which there is nothing
-# Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
-_IN_PARTS = ("materials", "forces", "bodies")
 _UNKNOWN = ("–", "-", "")  # what is written for a value that does not exist
 _LEAST_PART = 5e-4  # of the friction torque that a mechanism has to have
 _LEAST_LOAD = 0.01  # of the largest load of a contact, as in `loaded balls`
@@ -196,19 +192,6 @@ def _margin_cells(row: tuple[str, ...] | None) -> tuple[str, str, str]:
         return "", "", ""
     _, value, limit, share, met, _ = row
     return value, limit, share if met == "yes" else f"{share}, NOT met"
-
-
-def given_values(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> Table:
-    """Return the values of case and bearing.
-
-    Parameters of laws are left out.
-    """
-    rows = tuple(
-        (value.path, units.sentence(_shown(value)), value.source)
-        for value in values
-        if value.status == "given" or value.path.startswith(("bearing.", "lubricant."))
-    )
-    return Table("", ("", "value", "source"), rows)
 
 
 def machine_figures(found: Any, units: UnitSystem = SI, run: Any = None) -> Table:
@@ -418,56 +401,6 @@ def convergence(summary: Any, units: UnitSystem = SI) -> Table:
         *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
     ]
     return Table("convergence", ("", "value", "unit"), tuple(rows))
-
-
-def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:
-    """Return the resolved values with their sources.
-
-    Each section of the case has a table.
-
-    What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
-    """
-    sections: dict[str, dict[tuple[str, ...], list[str]]] = {}
-    for value in values:
-        section, _, name = value.path.partition(".")
-        part = ""
-        if section in _IN_PARTS:
-            part, _, name = name.partition(".")
-        shown = units.sentence(_shown(value))
-        row = (name or section.removesuffix("s"), shown, value.status, value.source, value.grade)
-        sections.setdefault(section, {}).setdefault(row, []).append(part.replace("_", " "))
-    head = ("", "value", "status", "source", "grade")
-    return tuple(
-        Table(
-            section, ("", "of", *head[1:]), tuple((row[0], ", ".join(parts), *row[1:]) for row, parts in rows.items())
-        )
-        if section in _IN_PARTS
-        else Table(section, head, tuple(rows))
-        for section, rows in sections.items()
-    )
-
-
-def _shown(value: ResolvedValue) -> str:
-    if value.quantity and isinstance(value.value, float):
-        return show(value.value, value.quantity, 6)
-    return written(value.value)
-
-
-def law_table(laws: Sequence[Mapping[str, str]]) -> Table:
-    """Return every law with its elements and parameters.
-
-    The force elements are those that use the law.
-    """
-    import json
-
-    found: dict[tuple[str, str, str, str], list[str]] = {}
-    for row in laws:
-        found.setdefault((row["role"], row["model"], row["parameters"], row["distribution"]), []).append(row["element"])
-    rows = []
-    for (role, name, parameters, distribution), elements in found.items():
-        values = ", ".join(f"{key} {written(value)}" for key, value in json.loads(parameters).items())
-        rows.append((role, name, ", ".join(elements).replace("_", " "), values, distribution))
-    return Table("laws", ("role", "law", "force elements", "parameters (SI)", "package"), tuple(rows))
 
 
 def written(value: object) -> str:

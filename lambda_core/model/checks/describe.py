@@ -15,9 +15,10 @@ from lambda_core.elements.roller.slices import SLICES
 from lambda_core.model.bearing_model import BearingModel, Body, TableTerm, Term, TimeFunction
 from lambda_core.model.checks.assumption_effects import by_effect
 from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.model.checks.placed_values import placed_values
 from lambda_core.model.laws.law_packages import laws_line
 from lambda_core.model.laws.time_functions import scaled
-from lambda_core.model.resolve import case_hash
+from lambda_core.model.resolve import model_hash
 
 if TYPE_CHECKING:
     from lambda_core.model.machine_model import MachineModel
@@ -54,6 +55,10 @@ class ModelReport(BaseModel):
         "solving"
     )
     assumptions: list[str]
+    hash: str = Field(description="of all that decides the numbers of a run")
+    values: list[ValueReport] = Field(
+        description="every frozen value with its origin; what one bearing of a machine has of its own is at its place"
+    )
 
     def text(self, everything: bool = False) -> str:
         """Return the lines of the report.
@@ -79,20 +84,14 @@ class CaseReport(ModelReport):
 
     Attributes
     ----------
-    hash : str
-        Of all that decides the numbers of a run.
     bodies : dict of str to str
         Mass and boundary conditions of each body.
     models : dict of str to dict
         Force element to role to the name of the law.
-    values : list of ValueReport
-        Every frozen value with its origin.
     """
 
-    hash: str
     bodies: dict[str, str]
     models: dict[str, dict[str, str]]
-    values: list[ValueReport]
 
     def _parts(self, everything: bool) -> list[str]:
         lines = _block("bodies", [f"{_BODY_NAMES[name]}: {text}" for name, text in self.bodies.items()])
@@ -108,14 +107,24 @@ class MachineReport(ModelReport):
         Name of each bearing to its title.
     parts : dict of str to str
         Name of each bearing, body and gear to its place and size.
+    models : dict of str to dict
+        Name of each bearing to force element to role to the name of the law.
     """
 
     bearings: dict[str, str]
     parts: dict[str, str]
+    models: dict[str, dict[str, dict[str, str]]]
 
     def _parts(self, everything: bool) -> list[str]:
-        del everything  # laws are listed in the results of the bearings
-        return [line for name, text in self.parts.items() for line in _block(name, [text])]
+        lines = [line for name, text in self.parts.items() for line in _block(name, [text])]
+        if not everything:
+            return lines
+        alike: dict[tuple[str, ...], list[str]] = {}
+        for name, models in self.models.items():
+            alike.setdefault(tuple(_model_lines(models)), []).append(name)
+        for told, names in alike.items():
+            lines += _block("models", [f"of {', '.join(names)}", *told])
+        return lines
 
 
 def verdict_line(name: str, warnings: Sequence[str], assumptions: Sequence[str]) -> str:
@@ -149,12 +158,10 @@ def _bearing(model: BearingModel) -> CaseReport:
     return CaseReport(
         name=model.name,
         title=model.title,
-        hash=case_hash(model),
+        hash=model_hash(model),
         headline=headline(model),
         bodies=_bodies(model),
-        models={
-            element: {role: law.model.name for role, law in roles.items()} for element, roles in model.laws.items()
-        },
+        models=_models(model),
         warnings=model_warnings(model),
         assumptions=list(model.assumptions),
         values=value_reports(model),
@@ -181,9 +188,17 @@ def _machine(model: MachineModel) -> MachineReport:
         headline=lines,
         bearings={bearing.name: bearing.model.title for bearing in model.bearings},
         parts=parts,
+        models={bearing.name: _models(bearing.model) for bearing in model.bearings},
+        hash=model_hash(model),
         warnings=model_warnings(model),
         assumptions=list(model.assumptions),
+        values=value_reports(model),
     )
+
+
+def _models(model: BearingModel) -> dict[str, dict[str, str]]:
+    """Return element to role to the name of the law."""
+    return {element: {role: law.model.name for role, law in roles.items()} for element, roles in model.laws.items()}
 
 
 def machine_headline(model: MachineModel) -> list[str]:
@@ -216,7 +231,7 @@ def model_warnings(model: BearingModel | MachineModel) -> list[str]:
     return [*model.warnings, *(f"{name}: {text}" if name else text for name, told in beyond for text in told)]
 
 
-def value_reports(model: BearingModel) -> list[ValueReport]:
+def value_reports(model: BearingModel | MachineModel) -> list[ValueReport]:
     """Return every value with its unit and origin."""
     return [
         ValueReport(
@@ -226,7 +241,7 @@ def value_reports(model: BearingModel) -> list[ValueReport]:
             grade=value.grade,
             status=value.status,
         )
-        for value in model.values
+        for value in placed_values({name: one.values for name, one in model.bearing_models.items()})
     ]
 
 
