@@ -18,7 +18,7 @@ from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case
 from lambda_core.case.machine import MachineCase
 from lambda_core.case.written import C, merged, validate
-from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
+from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.lists import listed
 from lambda_core.domain.option_tree import field_at
@@ -71,11 +71,14 @@ class Tables:
         Of the file or the case, for messages.
     folder : Path or None
         That file names in the tables are relative to; None: the working directory.
+    first_root : type, optional
+        Class of the case before it was changed: no change makes a machine of a bearing, or the other way round.
     """
 
     data: dict[str, Any]
     name: str
     folder: Path | None
+    first_root: type[Case] | type[MachineCase] | None = None
 
     @property
     def root(self) -> type[Case] | type[MachineCase]:
@@ -83,7 +86,7 @@ class Tables:
 
         It is a case of one bearing, or a machine.
         """
-        return MachineCase if is_machine_case(self.data) else Case
+        return self.first_root or (MachineCase if is_machine_case(self.data) else Case)
 
     def changed(self, overrides: Iterable[str]) -> Tables:
         """Return the tables with ``path=value`` texts applied.
@@ -95,7 +98,7 @@ class Tables:
             return self
         data = overridden(self.data, changes, self.root)
         _say_lost_classes(self.data, data)
-        return replace(self, data=data)
+        return replace(self, data=data, first_root=self.root)
 
 
 def read_tables(source: Source, folder: Path | None = None) -> Tables:
@@ -178,21 +181,19 @@ def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None
     return validate(tables.root, tables.data, _changed_name(tables.name, changes), tables.folder)
 
 
-def load_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case:
-    """Read the case of one bearing; a machine is refused.
+def bearing_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case:
+    """Read the case of one bearing.
 
-    Raises
-    ------
-    UsageError
-        When there is no such file or built-in case.
-    CaseError
-        With every problem of the case.
+    As :func:`read_case`; a machine is a CaseError.
     """
     changes = listed(overrides, "overrides")
     if isinstance(source, Case) and not changes:
         return source
     tables = read_tables(source, folder).changed(changes)
-    return validate_case(tables.data, _changed_name(tables.name, changes), tables.folder)
+    name = _changed_name(tables.name, changes)
+    if tables.root is MachineCase:
+        raise CaseError(name, [Problem("", "is a machine, and this needs the case of one bearing")])
+    return validate(Case, tables.data, name, tables.folder)
 
 
 def _changed_name(name: str, changes: Sequence[str]) -> str:
@@ -214,14 +215,6 @@ def case_text(path: Path) -> str:
         raise UsageError(f'cannot read "{path}": {error.strerror}') from None
 
 
-def parse_case(text: str, source: str = "case", folder: Path | None = None) -> Case:
-    """Parse a case from TOML text.
-
-    `folder` is where its file names are looked up.
-    """
-    return validate_case(toml_tables(text, source), source, folder)
-
-
 def toml_tables(text: str, source: str) -> dict[str, Any]:
     """Return the plain tables of TOML text.
 
@@ -235,20 +228,10 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
 
 
-def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
-    """Check plain tables as a case of one bearing.
-
-    A CaseError has every problem at once.
-    """
-    if is_machine_case(data):
-        raise CaseError(source, [Problem("", "is a machine of several bearings; this command needs one bearing")])
-    return validate(Case, data, source, folder)
-
-
 def is_machine(source: Any) -> bool:
     """Tell whether a source is a machine.
 
-    A machine has several bearings; False where nothing can be read.
+    A machine has a shaft in bearings.
 
     Parameters
     ----------
@@ -258,6 +241,13 @@ def is_machine(source: Any) -> bool:
     Returns
     -------
     bool
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        When the file is not TOML.
     """
     if isinstance(source, Mapping):
         return is_machine_case(source)
@@ -266,10 +256,7 @@ def is_machine(source: Any) -> bool:
         return hasattr(source, "bearings") or is_machine_case(
             written
         )  # a case or a model, or a machine built in Python
-    try:
-        return is_machine_case(read_tables(source).data)
-    except LambdaError:
-        return False
+    return is_machine_case(read_tables(source).data)
 
 
 def refuse_bearing(name: str | None) -> None:

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import is_machine_case, load_case, syntax_problem, validate_case
+from lambda_core.case.case_io import is_machine_case, read_tables, syntax_problem
 from lambda_core.case.case_writer import save_text, tables_toml
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineCase
@@ -190,13 +190,6 @@ class Draft:
         """True for the case of a machine."""
         return self.root is MachineCase
 
-    def case(self) -> Case:
-        """Return the case of one bearing.
-
-        A CaseError has every mistake of the file itself.
-        """
-        return validate_case(self.tables, str(self.tables.get("name", "case")), self.folder)
-
     def is_changed(self, *keys: str) -> bool:
         """Tell whether a place differs from the file.
 
@@ -300,7 +293,7 @@ def open_draft(source: str | Path) -> Draft:
         return draft_of(_read(path), path)
     if str(source) in builtin_cases():
         return draft_of(builtin_text(str(source)), None)
-    load_case(source)  # says what there is instead
+    read_tables(source)  # says what there is instead
     raise AssertionError("neither a file nor a built-in case, and no error says so")
 
 

@@ -156,15 +156,14 @@ def subject_of(source: Source, overrides: Iterable[str] = (), bearing: str | Non
 
     It is made of a case; UsageError where there is no such bearing.
     """
-    from lambda_core.case.case_io import apply_overrides, is_machine, refuse_bearing
-    from lambda_core.model.api import case_of
+    from lambda_core.case.case_io import apply_overrides, bearing_case, is_machine, refuse_bearing
 
     if is_machine(source):
         from lambda_core.fitting.machine_subject import MachineSubject
 
         return MachineSubject(source, overrides, bearing)
     refuse_bearing(bearing)
-    case = apply_overrides(case_of(source), overrides)
+    case = apply_overrides(bearing_case(source), overrides)
     subject = BearingSubject(case)
     return subject if subject.model.rollers is None else RollerSubject(case)
 

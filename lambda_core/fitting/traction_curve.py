@@ -213,8 +213,8 @@ def _model(oil: str, temperature: float, law: str, parameters: Mapping[str, Any]
 
     The traction law needs this context.
     """
+    from lambda_core.case.case_io import bearing_case
     from lambda_core.discovery.api import registry
-    from lambda_core.model.api import case_of
     from lambda_core.model.checking import resolve
 
     own = {name: value for name, value in parameters.items() if name in _fields(registry().model("traction", law))}
@@ -228,7 +228,7 @@ def _model(oil: str, temperature: float, law: str, parameters: Mapping[str, Any]
     }
     if own:
         tables["parameters"] = {"traction": own}
-    return resolve(case_of(tables), is_static=True)
+    return resolve(bearing_case(tables), is_static=True)
 
 
 def _fields(law: Any) -> Mapping[str, Any]:

@@ -189,9 +189,9 @@ def init_case(
         validate(MachineCase, tomllib.loads(text), f'new machine "{name}"')
         save_text(text, check_new(target, overwrite))
         return target
-    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.case.case_io import apply_overrides, bearing_case, toml_tables
 
-    changed = apply_overrides(parse_case(text, f"case {name}"), changes)
+    changed = apply_overrides(bearing_case(toml_tables(text, name)), changes)
     if any(change.partition("=")[0].strip() == "lubricant.name" for change in changes):
         _lubricant_known(changed)
     return _new_machine(changed, name, target, overwrite) if as_machine else write_new(changed, text, target, overwrite)
@@ -338,16 +338,3 @@ def catalogue() -> Catalogue:
     from lambda_core.discovery.api import registry
 
     return registry().catalogue()
-
-
-def case_of(source: Source) -> Case:
-    """Return the case of one bearing of any accepted source.
-
-    Raises
-    ------
-    UsageError, CaseError
-        When there is no such case, or it has mistakes.
-    """
-    from lambda_core.case.case_io import load_case
-
-    return load_case(source)

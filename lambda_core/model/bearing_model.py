@@ -18,6 +18,7 @@ from lambda_core.domain.value_status import ValueStatus
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
+    from lambda_core.case.case import Case
     from lambda_core.case.electric import Electric
     from lambda_core.case.thermal import Thermal
     from lambda_core.domain.elements import BodyName
@@ -330,6 +331,13 @@ class BearingModel:
     requirements: Requirements = field(default_factory=Requirements)
     rollers: RollerBearing | None = None
     found_temperatures: Any = field(default=None, compare=False, repr=False)
+
+    @property
+    def case(self) -> Case:
+        """Its case, read from the text that it keeps."""
+        from lambda_core.case.case_io import bearing_case, toml_tables
+
+        return bearing_case(toml_tables(self.case_toml, self.name))
 
     @property
     def warnings(self) -> tuple[str, ...]:

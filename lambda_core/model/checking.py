@@ -28,11 +28,11 @@ def check_bearing(
 
     It works as :func:`lambda_core.api.check`, which takes machines, too.
     """
-    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case_io import bearing_case
     from lambda_core.case.salvage import InvalidCase
 
     try:
-        return resolve(load_case(source, overrides, folder), catalogue, is_static=is_static)
+        return resolve(bearing_case(source, overrides, folder), catalogue, is_static=is_static)
     except InvalidCase as error:
         if error.remainder is None:
             raise

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal
 
-from lambda_core.case.case_io import Source, load_case
+from lambda_core.case.case_io import Source, bearing_case
 from lambda_core.case.short_form import LongForm, expand
 from lambda_core.domain.elements import POSE
 from lambda_core.elements.roller.roller_equilibrium import takes_one_side
@@ -39,7 +39,7 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
     UsageError, CaseError
         When there is no such case, or it has mistakes.
     """
-    case = load_case(source, overrides)
+    case = bearing_case(source, overrides)
     model = resolve(case, is_static=True)
     g = model.geometry
     shaft = shaft_inertia(case.bodies.inner_ring, g, model.inner_material.density, Ledger())

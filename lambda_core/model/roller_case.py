@@ -199,11 +199,11 @@ def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel |
     CaseError
         With everything that is missing, contradictory or impossible about the roller bearing.
     """
-    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case_io import bearing_case
     from lambda_core.discovery.api import registry
 
     try:
-        case = load_case(source, overrides)
+        case = bearing_case(source, overrides)
     except LambdaError:
         return None  # the ordinary path says what is wrong with it
     known = registry()
@@ -213,9 +213,7 @@ def roller_model(source: Source, overrides: Iterable[str] = ()) -> RollerModel |
 
 def rollers_at_rest(model: BearingModel) -> RollerModel:
     """Return a moving model as one at rest."""
-    from lambda_core.case.case_io import parse_case
-
-    found = roller_model(parse_case(model.case_toml, model.name))
+    found = roller_model(model.case)
     assert found is not None  # the model has rollers from this case
     return found
 

@@ -129,12 +129,12 @@ def case_text(name: str) -> str:
 
     It may also be the case that any bearing is put into.
     """
-    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case_io import bearing_case
     from lambda_core.case.case_writer import standalone_toml
 
     if name == ANCHOR:
         return files(__package__).joinpath(f"{ANCHOR}.toml").read_text(encoding="utf-8")
-    return standalone_toml(load_case(name))
+    return standalone_toml(bearing_case(name))
 
 
 def _run(job: Job, hash_: str, folder: str) -> JobResult:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from lambda_core import api
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import load_case, parse_case
+from lambda_core.case.case_io import bearing_case, toml_tables
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.option_tree import field_at, option_paths
 
@@ -284,7 +284,7 @@ def test_missing_sections_do_not_hide_other_mistakes() -> None:
 )
 def test_toml_syntax_error_names_its_line(line: str, where: str, said: str) -> None:
     with pytest.raises(CaseError) as caught:
-        parse_case(f"[loads]\n{line}\n", source="my.toml")
+        toml_tables(f"[loads]\n{line}\n", "my.toml")
     (problem,) = caught.value.problems
     assert problem.where == where
     assert said in problem.message
@@ -295,14 +295,14 @@ def test_file_that_is_no_text(tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_bytes(b"\xff\xfe\x00\x01")
     with pytest.raises(CaseError, match="UTF-8"):
-        load_case(path)
+        bearing_case(path)
 
 
 def test_unknown_source_offers_the_nearest_builtin_case(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="nearest built-in cases: 6319-cp10-1500"):
-        load_case("6319-cp10-150")
+        bearing_case("6319-cp10-150")
     with pytest.raises(UsageError, match="is a folder"):
-        load_case(tmp_path)
+        bearing_case(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -320,7 +320,7 @@ def test_bad_csv_table(tmp_path: Path, content: str, said: str) -> None:
     (tmp_path / "t.csv").write_text(content)
     text = '[loads]\naxial = { kind = "table", file = "t.csv" }'
     with pytest.raises(CaseError) as caught:
-        parse_case(text, folder=tmp_path)
+        bearing_case(toml_tables(text, "case"), folder=tmp_path)
     assert said in {p.where: p.message for p in caught.value.problems}["loads.axial"]
 
 

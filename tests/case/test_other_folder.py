@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case_io import load_case, read_case, toml_tables
+from lambda_core.case.case_io import bearing_case, read_case, toml_tables
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.machine_templates import shaft_text
 
@@ -68,7 +68,7 @@ def test_a_new_case_names_the_files_of_its_source(rig: Path, tmp_path: Path, as_
 
 
 def test_a_case_saved_in_its_own_folder_keeps_its_words(rig: Path, tmp_path: Path) -> None:
-    api.save(load_case(rig / "rig.toml").with_(name="other"), rig / "rig.toml")
+    api.save(bearing_case(rig / "rig.toml").with_(name="other"), rig / "rig.toml")
     assert (rig / "rig.toml").read_text() == BEARING.replace('"rig"', '"other"')
     api.save(read_case(rig / "box.toml"), tmp_path / "box.toml")
     assert tomllib.loads((tmp_path / "box.toml").read_text())["electric"]["series"]["file"] == "rig/data/volts.csv"

@@ -9,7 +9,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case import case_io
-from lambda_core.case.case_io import load_case, read_case
+from lambda_core.case.case_io import bearing_case, read_case
 from lambda_core.model.machine_templates import shaft_text
 
 
@@ -48,10 +48,32 @@ def test_a_machine_is_saved_with_its_comments(box: Path) -> None:
 
 
 def test_what_is_about_one_bearing_refuses_machines(box: Path) -> None:
-    with pytest.raises(api.CaseError, match="is a machine of several bearings"):
-        load_case(box)
-    with pytest.raises(api.UsageError, match="modes need a shaft"):
+    with pytest.raises(api.CaseError, match="is a machine, and this needs the case of one bearing"):
+        bearing_case(box)
+    with pytest.raises(api.UsageError, match=r"modes need a shaft.*--as-machine"):
         api.modes("6208-axial-1300")
+
+
+def test_modes_of_what_cannot_be_read_say_why(tmp_path: Path) -> None:
+    """Name the missing file or the wrong line.
+
+    Both counted as cases without a shaft.
+    """
+    with pytest.raises(api.UsageError, match="neither a file nor a built-in case"):
+        api.modes(tmp_path / "box.toml")
+    (tmp_path / "box.toml").write_text('name = "box')
+    with pytest.raises(api.CaseError, match=r"line 1|end of the file"):
+        api.modes(tmp_path / "box.toml")
+
+
+def test_an_option_of_one_bearing_is_none_of_a_machine(box: Path) -> None:
+    """Refuse the option by name.
+
+    With it the machine counted as one bearing.
+    """
+    for question in (api.check, api.case):
+        with pytest.raises(api.CaseError, match=r"bearing +is not a known option; nearest: bearings"):
+            question(box, ["bearing.designation=SKF 6208"])
 
 
 def test_one_schema_says_which_of_both_a_file_is() -> None:

@@ -18,7 +18,6 @@ from pydantic import BaseModel
 from lambda_core import api
 from lambda_core.case.builtin import builtin_cases
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import parse_case
 from lambda_core.case.modelling import Forces, Models
 from lambda_core.case.motion import Bodies
 from lambda_core.catalogue.protocol import Catalogue
@@ -55,7 +54,7 @@ def origin(model: BearingModel, path: str) -> tuple[float | str, str, str]:
 @pytest.mark.parametrize("name", sorted(builtin_cases()))
 def test_builtin_case_resolves_and_can_be_run_again_from_its_result(name: str) -> None:
     model = model_of(name)
-    again = check_bearing(parse_case(model.case_toml))
+    again = check_bearing(model.case)
     assert case_hash(again) == case_hash(model)
     assert model.assumptions == again.assumptions
     assert all(math.isfinite(x) for x in (model.inner_ring.mass, model.cage_body.mass, model.solver.max_step))

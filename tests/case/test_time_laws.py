@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+import tomllib
 
 import pytest
 
 from lambda_core import api
-from lambda_core.case.case_io import parse_case
 from lambda_core.domain.errors import CaseError
 from lambda_core.model.bearing_model import BearingModel, LawTerm
 from lambda_core.model.laws.time_functions import highest_frequency, initial, peak, scaled
@@ -35,7 +35,7 @@ def test_a_law_next_to_a_constant_is_looked_at_before_the_run() -> None:
 
 def resolve_text(text: str) -> BearingModel:
     """Resolve a case that is written in a result."""
-    return api.check(parse_case(text))
+    return api.check(tomllib.loads(text))
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from lambda_cli import commands, main
 
 from lambda_core import api
 from lambda_core.case.builtin import builtin_cases
-from lambda_core.case.case_io import load_case
+from lambda_core.case.case_io import bearing_case
 from lambda_core.domain.errors import PartialResultError, SolverError
 from lambda_core.domain.units import parse
 from lambda_core.model.checks.operating_limits import operating_warnings
@@ -109,7 +109,7 @@ def test_the_name_of_a_file_is_taken_as_that_of_its_case(
     monkeypatch.chdir(tmp_path)
     assert call("init", "pump.toml", "--bearing", "SKF 6208")[0] == 0
     assert [file.name for file in tmp_path.iterdir()] == ["pump.toml"]
-    assert load_case(tmp_path / "pump.toml").name == "pump"
+    assert bearing_case(tmp_path / "pump.toml").name == "pump"
 
 
 def test_version(call: Call) -> None:
@@ -212,7 +212,7 @@ def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, mo
     assert "lambda-bearing check drive-end.toml" in err
     text = (tmp_path / "drive-end.toml").read_text()
     assert text.count("#") >= 5
-    assert load_case(tmp_path / "drive-end.toml").name == "drive-end"
+    assert bearing_case(tmp_path / "drive-end.toml").name == "drive-end"
     assert call("check", "drive-end.toml")[0] == 0
     code, _, err = call("init", "drive-end")
     assert (code, "exists" in err) == (2, True)

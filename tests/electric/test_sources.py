@@ -13,7 +13,7 @@ from lambda_core import api
 from lambda_core.analysis.electric.outcome import source_words
 from lambda_core.analysis.electric.voltage_sources import corners, one_period
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import load_case
+from lambda_core.case.case_io import bearing_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.electric import Electric, Inverter, Series, Sine, Step
 from lambda_core.case.signals import Table
@@ -23,7 +23,7 @@ from lambda_core.domain.units import Quantity
 
 
 def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:
-    base = load_case("6208-axial-1300")
+    base = bearing_case("6208-axial-1300")
     base._folder = folder
     return base.with_(electric=electric)
 

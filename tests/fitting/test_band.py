@@ -28,7 +28,7 @@ from lambda_core.analysis.band.neighbours import interpolated, places_of, spread
 from lambda_core.analysis.band.over_points import bands_over
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.analysis.static_point import static_point
-from lambda_core.case.case_io import validate_case
+from lambda_core.case.case_io import bearing_case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.machine import bearing_tables
 from lambda_core.discovery.manager import registry
@@ -39,7 +39,6 @@ from lambda_core.export.report.band_table import model_bands
 from lambda_core.export.report.study_points import study_points
 from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
-from lambda_core.model.api import case_of
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.band_text import banded, ends, source_lines
@@ -125,7 +124,7 @@ def test_no_parameter_was_chosen_with_a_drawn_bearing() -> None:
 
 def _light_case(speed: int, load: int) -> api.Case:
     """Return a bearing whose unloaded balls have several steady motions."""
-    return validate_case(
+    return bearing_case(
         {
             "name": "light",
             "bearing": {"designation": "1208E", "maker": "SKF"},
@@ -467,7 +466,7 @@ def test_bands_from_neighbours_are_those_of_the_full_computation() -> None:
 
     Factors of 40 in speed and 12 in load, 6 points in full: within 15 % of the half-width on average.
     """
-    text = standalone_toml(case_of("6319-cp10-1500"))
+    text = standalone_toml(bearing_case("6319-cp10-1500"))
     points = [(speed, load) for speed in (100.0, 300.0, 1e3, 4e3) for load in (2.0, 6.0, 24.6)]
     places = places_of(list(zip(*points, strict=True)))
 

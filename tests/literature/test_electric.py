@@ -14,7 +14,7 @@ from lambda_core.analysis.electric.circuit_bearing import circuit_bearings
 from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria, films
 from lambda_core.analysis.electric.simulation import simulate
 from lambda_core.analysis.thermal.temperatures import ready
-from lambda_core.case.case_io import apply_overrides, parse_case
+from lambda_core.case.case_io import apply_overrides
 from lambda_core.case.electric import Electric
 
 if TYPE_CHECKING:
@@ -126,7 +126,7 @@ def test_first_breakdown_at_own_temperatures() -> None:
         for radial, axial in LOADS:
             model = rig(speed, radial, axial, "computed")
             plain[speed].append(first_breakdown(model, 3))
-            smooth[speed].append(first_breakdown(api.check(apply_overrides(parse_case(model.case_toml), changes)), 15))
+            smooth[speed].append(first_breakdown(api.check(apply_overrides(model.case, changes)), 15))
     for speed, published in PUBLISHED.items():
         assert max(plain[speed]) < 1.2
         assert np.median(published) / np.median(plain[speed]) == pytest.approx(3.0, rel=0.15)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.case.case_io import load_case
+from lambda_core.case.case_io import bearing_case
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import SolverError
 from lambda_core.laws.context import Context, Material, Oil
@@ -74,7 +74,7 @@ def _context(resolved: BearingModel) -> Context:
 
 @pytest.fixture
 def resolved(catalogue: SqlCatalogue) -> BearingModel:
-    return resolve(load_case("6319-cp10-1500"), registry(), catalogue)
+    return resolve(bearing_case("6319-cp10-1500"), registry(), catalogue)
 
 
 def test_inputs_of_the_6319(resolved: BearingModel) -> None:

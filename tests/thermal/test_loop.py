@@ -19,9 +19,9 @@ from lambda_core.domain.errors import CaseError, SolverError
 
 
 def loop_of(case: dict[str, Any]) -> BearingLoop:
-    from lambda_core.case.case_io import validate_case
+    from lambda_core.case.case_io import bearing_case
 
-    return BearingLoop(api.check(case), validate_case(case).thermal)
+    return BearingLoop(api.check(case), bearing_case(case).thermal)
 
 
 def state_of(found: SteadyTemperatures) -> State:

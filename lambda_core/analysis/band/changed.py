@@ -81,9 +81,9 @@ def resolved_anew(model: BearingModel, changes: Sequence[str], resolver: Resolve
 
     Those of a bearing of a machine are not in its case.
     """
-    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.case.case_io import apply_overrides
 
-    return as_loaded(resolver(apply_overrides(parse_case(model.case_toml, model.name), changes)), model)
+    return as_loaded(resolver(apply_overrides(model.case, changes)), model)
 
 
 def as_loaded(moved: BearingModel, model: BearingModel) -> BearingModel:

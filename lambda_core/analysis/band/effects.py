@@ -96,14 +96,12 @@ class Effects:
         quantities: Sequence[str],
         without: Iterable[str] = (),
     ) -> None:
-        from lambda_core.case.case_io import parse_case
-
         self._model, self.case = model, model.name
         self._kernels = Kernels(model)
         self._base = solve(model, self._kernels, phase=POSITIONS[0])
         self.names = tuple(name for name in quantities if self._has(name))
         self._values = self._read(self._base)
-        self._fit = finished_fit(parse_case(model.case_toml, model.name).fit)
+        self._fit = finished_fit(model.case.fit)
         fitted = [row.path for row in self._fit.parameters] if self._fit is not None else []
         self._without = {*without, *fitted}
         self._kept = {path.split(".")[1] for path in fitted if path.startswith("parameters.")}  # laws of fitted values
@@ -211,9 +209,7 @@ class Effects:
 
         The parameters of its own laws do not stay.
         """
-        from lambda_core.case.case_io import parse_case
-
-        case = parse_case(self._model.case_toml, self._model.name)
+        case = self._model.case
         return resolver(case.with_(models=dict(pairs), parameters={role: None for role, _ in pairs}))
 
     def _fitted(self, fit: FitOrigin, resolver: Resolver) -> Iterator[Effect]:

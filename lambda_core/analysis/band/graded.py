@@ -403,14 +403,14 @@ def _of_clearance(model: BearingModel, resolver: Resolver | None) -> list[Graded
 
     It applies only where the case leaves the clearance to the class.
     """
-    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.case.case_io import apply_overrides
     from lambda_core.model.checking import resolve
 
     own = _option(model, CLEARANCE)
     status = next((value.status for value in model.values if value.path == CLEARANCE), "")
     if own is None or status != "assumed":
         return []
-    case, moved = parse_case(model.case_toml, model.name), []
+    case, moved = model.case, []
     for pick in ("minimum", "maximum"):
         picked = apply_overrides(case, (f"bearing.clearance_pick={pick}",))
         moved.append((resolver or partial(resolve, is_static=True))(picked))

@@ -11,7 +11,6 @@ import numpy as np
 
 from lambda_core.analysis.band.effects import SEEN_STEPS, Effect, range_effect
 from lambda_core.analysis.band.graded import CLEARANCE, Exchange, Graded, exchanges, graded_parameters
-from lambda_core.case.case_io import parse_case
 from lambda_core.case.fitted import finished_fit
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
@@ -58,7 +57,7 @@ class RollerEffects:
     def __init__(
         self, model: BearingModel, base: RollerModel, quantities: Sequence[str], without: Iterable[str] = ()
     ) -> None:
-        fit = finished_fit(parse_case(model.case_toml, model.name).fit)
+        fit = finished_fit(model.case.fit)
         fitted = [row.path for row in fit.parameters] if fit is not None else []
         self._model, self._base, self.case = model, base, base.name
         self._without = {*without, *fitted}
@@ -79,7 +78,7 @@ class RollerEffects:
 
         The slopes are by the temperature of the oil [1/K] and by the clearance [1/m].
         """
-        case, base = parse_case(self._model.case_toml, self._model.name), self._base
+        case, base = self._model.case, self._base
         warmer = roller_model(case, (f"{_TEMPERATURE}={base.temperature + SEEN_STEPS[0]!r} K",))
         assert warmer is not None
         wider = replace(base.bearing, clearance=base.bearing.clearance + SEEN_STEPS[1])
@@ -127,7 +126,7 @@ def _changed(
 
     The answer depends on the parameter; the ends are those of its range.
     """
-    case = parse_case(model.case_toml, model.name)
+    case = model.case
     written = roller_model(case)
     values = written.values if written is not None else ()
     for graded in graded_parameters(replace(model, values=(*model.values, *values))):

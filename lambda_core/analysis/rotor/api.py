@@ -54,6 +54,6 @@ def modes(
     if not is_machine(source):
         raise UsageError(
             "modes need a shaft, and this case has one bearing without a shaft: "
-            "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
+            "lambda-bearing init NAME --from FILE --as-machine writes it on a shaft"
         )
     return MachinePoint(ready_machine_of(source, overrides, announce), announce).modes  # type: ignore[arg-type]

@@ -19,7 +19,6 @@ from lambda_core.analysis.thermal.conductances import (
     rolling_contact,
 )
 from lambda_core.analysis.thermal.roller_losses import roller_extras, roller_losses
-from lambda_core.case.case_io import parse_case
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError
@@ -152,7 +151,7 @@ def model_at(model: BearingModel, inlet: float, clearance: float) -> BearingMode
 
 def _warm(rollers: RollerModel, model: BearingModel) -> RollerModel:
     """Return rollers with clearance and oil of a model."""
-    case = parse_case(model.case_toml, model.name)
+    case = model.case
     warmer = roller_model(case, (f"lubricant.temperature={model.oil.temperature!r} K",))
     assert warmer is not None
     assert model.rollers is not None

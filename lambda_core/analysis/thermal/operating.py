@@ -14,7 +14,6 @@ from lambda_core.analysis.thermal.losses import Announce, Losses, Point
 from lambda_core.analysis.thermal.machine_network import MachineNetwork
 from lambda_core.analysis.thermal.pillow_block import bearing_network
 from lambda_core.analysis.thermal.surroundings import housing_area
-from lambda_core.case.case_io import parse_case
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import ALONE
@@ -95,7 +94,7 @@ class BearingLoop(Loop):
 
     def model_at(self, found: Steady, sentence: str = "", *, is_static: bool = True) -> BearingModel:
         """Return the model at found temperatures; see :class:`Loop`."""
-        case, at = parse_case(self.model.case_toml, self.model.name), self.nodes.named(found.temperatures)
+        case, at = self.model.case, self.nodes.named(found.temperatures)
         warm = case.with_(
             assumptions=[*case.assumptions, *network_assumptions(case.thermal), sentence],
             lubricant={"temperature": degrees(found.points[0].inlet)},

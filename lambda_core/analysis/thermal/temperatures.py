@@ -29,13 +29,12 @@ def loop_of(
     """Return the loop that computes all temperatures of a case."""
     from lambda_core.analysis.thermal.machine_temperatures import MachineLoop, without_temperatures
     from lambda_core.analysis.thermal.operating import BearingLoop
-    from lambda_core.case.case_io import parse_case
     from lambda_core.model.machine_model import MachineModel
 
     model = resolved(source, overrides)
     if isinstance(model, MachineModel):
         return MachineLoop(without_temperatures(model), announce)
-    return BearingLoop(model, model.thermal or parse_case(model.case_toml, model.name).thermal, announce)
+    return BearingLoop(model, model.thermal or model.case.thermal, announce)
 
 
 def of_run(result: Result, announce: Callable[[str], None] | None = None) -> tuple[Loop, Steady]:
@@ -152,11 +151,11 @@ def ready_rollers(
     CaseError, SolverError
         With a sentence about the case, or about why there are no steady temperatures.
     """
-    from lambda_core.case.case_io import load_case
+    from lambda_core.case.case_io import bearing_case
     from lambda_core.model.roller_case import roller_model, rollers_at_rest
 
     rollers = roller_model(source, overrides)  # type: ignore[arg-type]
-    if rollers is None or load_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
+    if rollers is None or bearing_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
         return None if rollers is None else (rollers, None)
     warm = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     return rollers_at_rest(warm), warm

@@ -284,11 +284,11 @@ def _band(case_toml: str) -> ModelBand | None:
     It is one of a bearing, or None where there is none.
     """
     from lambda_core.analysis.band.model_band import model_band
-    from lambda_core.case.case_io import parse_case
+    from lambda_core.case.case_io import toml_tables
     from lambda_core.results.model_band import ModelBand
 
     try:
-        found = model_band(parse_case(case_toml))
+        found = model_band(toml_tables(case_toml, "case"))
     except LambdaError:
         return None
     return found if isinstance(found, ModelBand) else None
