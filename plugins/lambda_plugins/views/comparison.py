@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_core.results.side_by_side import differing_inputs, run_names
 from lambda_plugins.views.azimuth import AZIMUTH
 from lambda_plugins.views.common import BINS, averaging, of_ring, profile
 from lambda_plugins.views.friction import PER_RING, REST
@@ -22,6 +21,9 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
 
     Friction by mechanism and load distributions.
     """
+    # Here: every command imports the views, and few of them compare.
+    from lambda_core.results.side_by_side import differing_inputs, run_names
+
     if len(runs) < 2:
         raise NotApplicable("a comparison needs at least two results")
     if len(runs) > _MOST:
