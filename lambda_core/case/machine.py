@@ -25,7 +25,7 @@ from lambda_core.case.machine_parts import (
 )
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import CageBody, Gravity, Marker, RingBody, TurningRing
-from lambda_core.case.option import NAME_PATTERN, Section, option
+from lambda_core.case.option import Section, option
 from lambda_core.case.pairs import Pairs, rising
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.requirements import Life, Requirements
@@ -74,6 +74,8 @@ NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connection
 # Names that are taken already
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
 
+# A dot would separate the steps of a path: bearings.left.clearance
+_PART_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 STAND_IN = "stand-in"  # a bearing where no other is left
 _PIECES = [{"length": "1 m", "diameter": "40 mm"}]
 
@@ -311,8 +313,9 @@ class MachineCase(Written):
         for table in NAMED:
             parts = data.get(table)
             for name in parts if isinstance(parts, Mapping) else ():
-                if not re.match(NAME_PATTERN, str(name)):
-                    found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
+                if not _PART_NAME.fullmatch(str(name)):
+                    told = "use letters, digits, dash and underscore in names, the first a letter or digit"
+                    found.append(Problem(f"{table}.{name}", told))
                 elif table == "markers" and length_in(str(name)) is not None:
                     found.append(Problem(f"{table}.{name}", "looks like a length: choose another name"))
                 elif name in TAKEN.get(table, ()):

@@ -122,3 +122,14 @@ def test_nothing_in_a_table_is_nothing_said(tmp_path: Path) -> None:
     tables["life"]["contamination"] = None
     machine = api.check(tables, folder=tmp_path)
     assert [bearing.model.contamination for bearing in machine.bearings] == [None, None]
+
+
+@pytest.mark.parametrize("name", ["a.b", "right.cage", "two words", "line\n", "-x", ""])
+@pytest.mark.parametrize("table", ["markers", "loads"])
+def test_names_of_parts_can_be_steps_of_a_path(table: str, name: str) -> None:
+    """Refuse a dot, which separates the steps.
+
+    No change could reach loads.a.b.force_z, and a line break ended a name unseen.
+    """
+    found = mistakes({table: {name: {"x": "20 mm"} if table == "markers" else {"at": "20 mm"}}})
+    assert found[f"{table}.{name}"] == "use letters, digits, dash and underscore in names, the first a letter or digit"

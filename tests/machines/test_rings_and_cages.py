@@ -103,10 +103,10 @@ def test_a_marker_on_a_ring_moves_with_it_and_one_on_a_cage_only_in_motion() -> 
             "connections.c.to", "same body",
         ),
         ({"bearings": {"left": {"outer": "right.cage"}}}, "bearings.left.outer", "ground or in one of"),
-        ({"markers": {"left.cage": {"x": "1 mm"}}}, "markers.left.cage", "part of a bearing"),
+        ({"markers": {"left.cage": {"x": "1 mm"}}}, "markers.left.cage", "use letters, digits, dash"),
         (
             {"bearings": {"left.cage": {"designation": "SKF 6208", "at": "85 mm"}}},
-            "bearings.left.cage", "part of a bearing",
+            "bearings.left.cage", "use letters, digits, dash",
         ),
         ({"discs": {"d": {"at": "left.cage", "mass": "1 kg"}}}, "discs.d.at", "marker or bearing"),
     ],

@@ -78,9 +78,6 @@ def places(case: MachineCase, outside: ElasticBody | None, ledger: Ledger) -> Pl
     carriers: dict[str, Carrier] = {"ground": GROUND, "shaft": SHAFT}
     carriers |= {name: i + 1 for i, name in enumerate(case.bodies)}
     carriers |= parts
-    for table in ("bearings", "bodies", "markers"):
-        for name in (name for name in getattr(case, table) if name in parts):
-            ledger.problem(f"{table}.{name}", f'"{name}" is a part of a bearing: choose another name')
     nodes: dict[str, float] = {}
     if outside is not None and outside.names:
         nodes = dict(zip(outside.names, outside.positions.tolist(), strict=True))
