@@ -35,6 +35,10 @@ class Data:
         Operating point of each value; values of one point share the errors of its conditions. Each its own if empty.
     common_errors : float64[:, :], shape (n, k)
         Standard deviations of the errors that the same conditions have in common at all points; empty for none.
+    value_errors, value_shares : float64[:, :], shape (n, q)
+        Standard deviations of the errors that values of one quantity have in common, a column for each such error,
+        and the same as shares of the predicted values; empty for none. Shares of the measured ones would make fits
+        too small (D'Agostini 1994, Nucl. Instrum. Methods A 346, 306).
     """
 
     values: FloatArray
@@ -45,6 +49,8 @@ class Data:
     is_proportional: bool = False
     points: tuple[int, ...] = ()
     common_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    value_errors: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    value_shares: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
 
     def absolute(self, predicted: FloatArray) -> FloatArray:
         """Return the errors in the unit of the values."""
@@ -66,6 +72,13 @@ class Data:
         """
         common = self.common_errors if self.common_errors.size else np.zeros_like(self.input_errors)
         return slopes * self.input_errors, slopes * common
+
+    def offsets(self, predicted: FloatArray) -> FloatArray:
+        """Return what common errors of values change, shape (n, q)."""
+        if not self.value_errors.size:
+            return np.zeros((self.values.size, 0))
+        found: FloatArray = self.value_errors + self.value_shares * predicted[:, None]
+        return found
 
     @property
     def groups(self) -> list[NDArray[np.int64]]:

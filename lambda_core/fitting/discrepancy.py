@@ -139,6 +139,7 @@ def predict(
     asked: Place,
     asked_errors: FloatArray | float = 0.0,
     shared: SharedErrors = _APART,
+    shared_with: FloatArray | float = 0.0,
 ) -> Prediction:
     """Predict values with their errors.
 
@@ -160,6 +161,8 @@ def predict(
         Standard deviations of new measurements there; 0 for the true values.
     shared : SharedErrors
         What the errors of measured values have in common.
+    shared_with : float64[:, :], shape (n, m)
+        Covariance of these errors with those of the new measurements.
 
     Returns
     -------
@@ -167,9 +170,11 @@ def predict(
     """
     from scipy.linalg import solve_triangular
 
+    shared_with = np.broadcast_to(shared_with, (measured.size, asked.predicted.size))
     if measured.size > _MOST:
         rows = _far_apart(at.coordinates)
         at, measured, errors, shared = _rows(at, rows), measured[rows], errors[rows], shared.among(rows)
+        shared_with = shared_with[rows]
     before, spread = _known_before(parameters)
     offset = before - values
     both = _joined(at, asked)
@@ -180,6 +185,7 @@ def predict(
     linear = both.jacobian * spread
     known = linear[:count] @ linear.T
     known[:, :count] += shared.covariance(np.maximum(errors, floor))
+    known[:, count:] += shared_with
     size = np.abs(both.predicted) * both.sizes
     apart = _beyond(at.coordinates, asked.coordinates)[:count]
     products = np.outer(size[:count], size)

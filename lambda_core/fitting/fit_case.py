@@ -148,7 +148,7 @@ def _rest(
     """
     if found.is_interrupted:
         return
-    sizes = discrepancy_sizes(problem, found)
+    sizes = discrepancy_sizes(problem, found.values, found.predicted)
     yield "sizes", sizes
     if suggest:
         yield "suggestion", _suggestion(problem, found)
@@ -220,6 +220,8 @@ def _unseen(
 
     asked, (values, new), reasons = with_solvable_rows(problem.elsewhere(data), predict, 1)
     doubts += left_out_sentences(data.name, reasons, len(asked.entries))
+    if found.data.is_error_known and not asked.data.is_error_known:
+        doubts.append(f"{data.name} has no errors of measurement: its bands are for exact measurements.")
     return [
         PredictedPoint(
             **_where(subject, asked, entry),

@@ -15,7 +15,7 @@ from lambda_core.fitting.data import Data
 from lambda_core.fitting.model_calls import Model, ModelCalls
 from lambda_core.fitting.parameters import Parameter, bounds, spreads, starts
 from lambda_core.fitting.residual_tests import ResidualTest, residual_tests
-from lambda_core.fitting.shared_errors import SharedErrors
+from lambda_core.fitting.shared_errors import SharedErrors, errors_of
 
 _ROUNDS = 6  # of weights from the residuals of the round before
 _SETTLED = 0.02  # of a standard deviation, and of the scatter: change that ends the rounds
@@ -324,7 +324,8 @@ class _Search:
         Errors, scatter or an updated Jacobian may depend on the solution.
         """
         data = self._data
-        return not data.is_error_known or bool(data.input_errors.size) or data.is_proportional or self._costly
+        is_moved = bool(data.input_errors.size or data.value_shares.size)
+        return not data.is_error_known or is_moved or data.is_proportional or self._costly
 
     def inseparable(self) -> list[int]:
         """Return the parameters that the data do not determine."""
@@ -415,14 +416,12 @@ class _Search:
     def _take_errors(self) -> None:
         """Take errors of measured values at the present point.
 
-        They include those of the operating conditions, which values of one point share, or of all points.
+        They include those of the operating conditions and of instruments, which several values share.
         """
-        data = self._data
-        self._errors, self._shared = data.absolute(self._predicted()), SharedErrors()
-        if self._input_slopes is not None and data.input_errors.size:
-            moved, common = data.moved(np.asarray(self._input_slopes(self._point)))
-            self._errors = np.sqrt(self._errors**2 + np.sum(moved**2 + common**2, axis=1))
-            self._shared = SharedErrors.of(data.groups, moved, common, self._errors)
+        slopes = None
+        if self._input_slopes is not None and self._data.input_errors.size:
+            slopes = np.asarray(self._input_slopes(self._point))
+        self._errors, self._shared = errors_of(self._data, self._predicted(), slopes)
         self._scale = self._scatter()
 
     def _scatter(self) -> float:

@@ -336,7 +336,7 @@ def _points(one: _Loaded, band: bool) -> list[ComparedPoint]:
         changes = [condition_change(data.set_by[name], float(column[row])) for name, column in data.conditions.items()]
         names = [name for name, values in data.measured.items() if math.isfinite(values[row])]
         bands = subject.bands(changes, names) if band else {}
-        predicted = subject.values(changes, (), names, one=False).mean(axis=0)
+        predicted = subject.solved(changes, (), names, one=False).mean(axis=0)
         for name, value in zip(names, predicted.tolist(), strict=True):
             found.append(
                 ComparedPoint(

@@ -27,6 +27,7 @@ _SMALL, _BIG = 1e-15, 1e15  # sizes of numbers but 0, in their units: far beyond
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how such a file begins
 _SHARE = "%"  # unit of an error as a share of the value
 _OF_CONDITIONS = ("condition error", "common error")  # kinds of columns
+_OF_VALUES = ("error", "share", "value common error", "value common share")
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,8 @@ class Measurements:
         Standard deviations in the same units.
     shares : dict of str to float64[:]
         Standard deviations given as shares of the value.
+    common_of_values, common_shares : dict of str to float64[:]
+        Standard deviations of the error that all values of a quantity have in common, likewise.
     """
 
     name: str
@@ -68,6 +71,8 @@ class Measurements:
     measured: dict[str, FloatArray] = field(default_factory=dict)
     errors: dict[str, FloatArray] = field(default_factory=dict)
     shares: dict[str, FloatArray] = field(default_factory=dict)
+    common_of_values: dict[str, FloatArray] = field(default_factory=dict)
+    common_shares: dict[str, FloatArray] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -81,6 +86,21 @@ class Measurements:
     def uncertain(self) -> dict[str, FloatArray]:
         """Conditions that have errors, with a size of them."""
         return self.common_errors | self.condition_errors
+
+    @property
+    def in_common(self) -> str:
+        """Name of what has a common error, or ""."""
+        return next(iter([*self.common_errors, *self.common_of_values, *self.common_shares]), "")
+
+    def deviations(self, name: str) -> FloatArray | None:
+        """Return the standard deviations of a quantity's values.
+
+        They contain the common error; None where the file gives no errors.
+        """
+        found = [errors[name] for errors in (self.errors, self.common_of_values) if name in errors]
+        sizes = np.abs(self.measured[name])
+        found += [shares[name] * sizes for shares in (self.shares, self.common_shares) if name in shares]
+        return np.sqrt(np.sum(np.square(found), axis=0)) if found else None
 
     def without(self, rows: Container[int]) -> Measurements:
         """Return the same without some points."""
@@ -99,11 +119,16 @@ class Measurements:
             measured=part(self.measured),
             errors=part(self.errors),
             shares=part(self.shares),
+            common_of_values=part(self.common_of_values),
+            common_shares=part(self.common_shares),
         )
 
     def equal_lines(self) -> list[tuple[int, ...]]:
         """Return the lines of points that agree in every column."""
-        groups = (self.conditions, self.condition_errors, self.common_errors, self.measured, self.errors, self.shares)
+        groups = (
+            self.conditions, self.condition_errors, self.common_errors, self.measured, self.errors, self.shares,
+            self.common_of_values, self.common_shares,
+        )  # fmt: skip
         columns = [column.tolist() for group in groups for column in group.values()]
         found: dict[tuple[object, ...], list[int]] = {}
         for row, line in enumerate(self.lines):
@@ -119,7 +144,7 @@ class _Column:
     It holds a condition or a quantity.
     """
 
-    kind: str  # "condition", "condition error", "common error", "measured", "error", "share", "label"
+    kind: str  # "condition", "measured", "label", or one of _OF_CONDITIONS and _OF_VALUES
     name: str
     unit: str
     quantity: str
@@ -199,11 +224,14 @@ def _columns(line: int, header: list[str], problems: list[Problem], words: Vocab
         listed = ", ".join(words.measured)
         problems.append(Problem(f"line {line}", f"has no measured quantity: add a column named {listed}"))
     for column in found:
-        owner = "measured" if column.kind in ("error", "share") else "condition"
-        if column.kind in ("error", "share", *_OF_CONDITIONS) and (owner, column.name) not in names:
+        owner = "measured" if column.kind in _OF_VALUES else "condition"
+        if column.kind in (*_OF_VALUES, *_OF_CONDITIONS) and (owner, column.name) not in names:
             problems.append(Problem(f"line {line}", f'"{column.header}" has no column "{column.name}" it belongs to'))
-    both = {n for k, n in names if k == "error"} & {n for k, n in names if k == "share"}
-    problems += [Problem(f"line {line}", f'"{name}" has two columns of errors: keep one') for name in sorted(both)]
+    for end, kinds in ((ERROR, _OF_VALUES[:2]), (COMMON_ERROR, _OF_VALUES[2:])):
+        one, other = ({name for kind, name in names if kind == own} for own in kinds)
+        problems += [
+            Problem(f"line {line}", f'"{name}{end}" has two columns: keep one') for name in sorted(one & other)
+        ]
     return found
 
 
@@ -226,7 +254,7 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
     if words == LABEL:
         return _Column("label", LABEL, "", "", text)
     end = next((end for end in (COMMON_ERROR, ERROR) if words.endswith(end)), "")
-    is_error, name = bool(end), words.removesuffix(end)
+    is_error, is_common, name = bool(end), end == COMMON_ERROR, words.removesuffix(end)
     condition = vocabulary.condition(name, unit or "")
     if condition is None and "." in name:  # the path of an option; names in it may have capitals
         name = written[: len(written) - len(end)]
@@ -242,11 +270,6 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
             problems.append(Problem(where, f'"{shown}": {why}'))
             return None
         problems.append(Problem(where, f'"{shown}" is not a known column; {names}'))
-        return None
-    if condition is None and end == COMMON_ERROR:
-        problems.append(
-            Problem(where, f'"{text}": only operating conditions have errors in common: write "{name}{ERROR} [%]"')
-        )
         return None
     if condition is not None:
         quantity = condition.error_quantity if is_error else condition.quantity
@@ -265,13 +288,14 @@ def _column(text: str, where: str, problems: list[Problem], vocabulary: Vocabula
                 Problem(where, f'"{text}": the error of a temperature must have a unit: write "{words} [K]"')
             )
             return None
-        return _Column("share", name, unit, "", text)
+        return _Column(_OF_VALUES[1 + 2 * is_common], name, unit, "", text)
     try:
         parse(f"1 {unit}", quantity)
     except ValueError as error:
         problems.append(Problem(where, f'"{text}": {str(error).split(": ", 1)[-1]}'))
         return None
-    kinds = ("measured", "error") if condition is None else ("condition", _OF_CONDITIONS[end == COMMON_ERROR])
+    of_values, of_conditions = _OF_VALUES[2 * is_common], _OF_CONDITIONS[is_common]
+    kinds = ("measured", of_values) if condition is None else ("condition", of_conditions)
     return _Column(kinds[is_error], name, unit, quantity, text, condition)
 
 
@@ -285,8 +309,15 @@ def _values(
         )
         problems.append(Problem(f"line {line}", f"has {len(cells)} cells, the header {len(columns)}{comma}"))
         return []
-    return [_value(f"line {line}, column {n}", cell, column, problems, words) for n, (cell, column) in enumerate(
-        zip(cells, columns, strict=True), 1)]  # fmt: skip
+    missing = {
+        column.name for cell, column in zip(cells, columns, strict=True) if column.kind == "measured" and not cell
+    }
+    return [
+        math.nan
+        if not cell and column.kind in _OF_VALUES and column.name in missing
+        else _value(f"line {line}, column {n}", cell, column, problems, words)
+        for n, (cell, column) in enumerate(zip(cells, columns, strict=True), 1)
+    ]
 
 
 def _value(where: str, cell: str, column: _Column, problems: list[Problem], words: Vocabulary) -> float | str:
@@ -312,11 +343,11 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
             raise ValueError(f'"{cell}" is not a finite number')
         if number and not _SMALL <= abs(number) <= _BIG:
             raise ValueError(f'"{cell}": a number other than 0 lies between {_SMALL:g} and {_BIG:g} in size')
-        if column.kind in ("share", "error", *_OF_CONDITIONS) and number <= 0.0:
+        if column.kind in (*_OF_VALUES, *_OF_CONDITIONS) and number <= 0.0:
             raise ValueError(f'"{cell}": an error must be above zero')
         if column.kind == "measured" and number < 0.0 and not _may_be_negative(column, words):
             raise ValueError(f'"{cell}": must be 0 or above, whatever the sense of rotation')
-        if column.kind == "share":
+        if column.quantity == "":
             return number / 100.0
         value = parse(f"{cell} {column.unit}", column.quantity)
     except ValueError as error:
@@ -328,7 +359,7 @@ def _value(where: str, cell: str, column: _Column, problems: list[Problem], word
     if column.condition is not None:
         return value
     known = words.measured[column.name]
-    return from_si(value, column.quantity, known.error_unit if column.kind == "error" else known.unit)
+    return from_si(value, column.quantity, known.unit if column.kind == "measured" else known.error_unit)
 
 
 def _may_be_negative(column: _Column, words: Vocabulary) -> bool:
@@ -346,7 +377,7 @@ def _measurements(
     """Put the columns together."""
     labels = tuple("" for _ in lines)
     groups: dict[str, dict[str, FloatArray]] = {
-        kind: {} for kind in ("condition", *_OF_CONDITIONS, "measured", "error", "share")
+        kind: {} for kind in ("condition", *_OF_CONDITIONS, "measured", *_OF_VALUES)
     }
     for index, column in enumerate(columns):
         cells = [row[index] for row in table]
@@ -372,6 +403,5 @@ def _measurements(
         groups["condition error"],
         groups["common error"],
         groups["measured"],
-        groups["error"],
-        groups["share"],
+        *(groups[kind] for kind in _OF_VALUES),
     )

@@ -152,7 +152,7 @@ def _drawn(panel: Panel, data: Measurements) -> Panel:
         if values is None:
             continue
         known = np.isfinite(values)
-        error = data.errors.get(name, data.shares[name] * np.abs(values) if name in data.shares else None)
+        error = data.deviations(name)
         low, high = (None, None) if error is None else ((values + sign * NORMAL * error)[known] for sign in (-1.0, 1.0))
         words = f"{line}, measured" if line else f"measured, {data.name}"
         role = next((one.role for one in panel.series if one.name == line and one.role), "measured")

@@ -121,11 +121,10 @@ class CaseProblem:
             raise UsageError(f'{m.name}: give errors for all quantities or none; "{missing[0]} error [%]" is missing')
         if not all(known) and (warm := [name for name in m.measured if name.endswith("temperature")]):
             raise UsageError(f'{m.name}: a temperature needs its error: add a column "{warm[0]} error [K]"')
-        if not all(known) and m.common_errors:
-            first, name = next(iter(m.common_errors)), next(iter(m.measured))
+        if not all(known) and m.in_common:
             raise UsageError(
-                f'{m.name}: "{first} common error" counts against errors of measured values: add a column '
-                f'"{name} error [%]"'
+                f'{m.name}: "{m.in_common} common error" counts against errors of measured values: add a column '
+                f'"{next(iter(m.measured))} error [%]"'
             )
         errors, is_known = np.ones_like(values), all(known)
         for index, entry in enumerate(self.entries):
@@ -136,7 +135,22 @@ class CaseProblem:
         columns = {name: column[[e.row for e in self.entries]] for name, column in m.conditions.items()}
         alone, common = (self._of_entries(errors) for errors in (m.condition_errors, m.common_errors))
         points = tuple(e.row for e in self.entries)
-        return Data(values, errors, columns, alone, is_known, not is_known, points, common)
+        of_values = (self._of_instruments(errors) for errors in (m.common_of_values, m.common_shares))
+        return Data(values, errors, columns, alone, is_known, not is_known, points, common, *of_values)
+
+    def _of_instruments(self, errors: Mapping[str, FloatArray]) -> FloatArray:
+        """Return common errors of measured quantities, shape (n, q)."""
+        found = np.zeros((len(self.entries), len(self._instruments)))
+        for index, entry in enumerate(self.entries):
+            if entry.quantity in errors:
+                found[index, self._instruments.index(entry.quantity)] = errors[entry.quantity][entry.row]
+        return found
+
+    @property
+    def _instruments(self) -> list[str]:
+        """Measured quantities whose values have an error in common."""
+        m = self.measurements
+        return [name for name in m.measured if name in m.common_of_values or name in m.common_shares]
 
     def _of_entries(self, errors: Mapping[str, FloatArray]) -> FloatArray:
         """Return errors of conditions for each value, shape (n, k)."""
@@ -177,17 +191,22 @@ class CaseProblem:
             columns.append((self._stacked(values, moved, one=True) - base) / steps)
         return np.column_stack(columns)
 
-    def input_deviations(self, values: FloatArray) -> FloatArray:
-        """Return the predictions' deviations by conditions.
+    def parts(self, values: FloatArray) -> tuple[FloatArray, dict[str, FloatArray]]:
+        """Return errors of new measured values.
 
-        They are the standard deviations by the errors of the conditions, shape (n,).
+        Returns
+        -------
+        tuple of (float64[:], dict of str to float64[:])
+            Standard deviations by errors of conditions at each point alone; what each error in common moves every
+            value, by the name of its condition or quantity.
         """
-        data = self.data
-        if not data.input_errors.size:
-            return np.zeros(len(self.entries))
-        moved, common = data.moved(self.input_slopes(values))
-        found: FloatArray = np.sqrt(np.sum(moved**2 + common**2, axis=1))
-        return found
+        data, alone = self.data, np.zeros(len(self.entries))
+        common = dict(zip(self._instruments, data.offsets(self.predict(values)).T, strict=True))
+        if data.input_errors.size:
+            moved, of_all = data.moved(self.input_slopes(values))
+            alone = np.sqrt(np.sum(moved**2, axis=1))
+            common |= dict(zip(self.measurements.uncertain, of_all.T, strict=True))
+        return alone, common
 
     def conditions_of_entries(self) -> list[dict[str, float]]:
         """Return the operating conditions of each measured value, SI."""

@@ -208,7 +208,7 @@ def _row(
     """Solve one row; an error stands in its place."""
     with gathered(SOLVER) as doubts:
         try:
-            values = subject.values(row.changes, parameters, row.names, one=one)
+            values = subject.solved(row.changes, parameters, row.names, one=one)
         except LambdaError as error:
             return error
     return Solved(values, tuple(dict.fromkeys(doubts)))

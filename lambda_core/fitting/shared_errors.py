@@ -1,8 +1,9 @@
 """Make errors independent that measured values share.
 
 An error of the oil temperature moves torque and loss of a point together: both do not tell twice what one tells. The
-error of a thermometer moves all points together. The values are combined into as many with independent errors of size
-one (Aitken 1936, Proc. R. Soc. Edinb. 55, 42: generalised least squares).
+error of a thermometer moves all points together, and that of a torque sensor all torques: values covary by the product
+of what a common error does to them (JCGM 100:2008, F.1.2.3). They are combined into as many with independent errors of
+size one (Aitken 1936, Proc. R. Soc. Edinb. 55, 42: generalised least squares).
 """
 
 from __future__ import annotations
@@ -15,8 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.fitting.data import Data
+from lambda_core.fitting.uncertainty import huber_weights
 
 _LEAST_OWN = 1e-6  # share of a variance that belongs to a value alone: keeps the correlations below one
+_ITERATIONS = 20  # of weights that find outliers
 
 
 @dataclass(frozen=True)
@@ -36,7 +40,12 @@ class SharedErrors:
 
     @classmethod
     def of(
-        cls, groups: Sequence[NDArray[np.int64]], moved: FloatArray, common: FloatArray, errors: FloatArray
+        cls,
+        groups: Sequence[NDArray[np.int64]],
+        moved: FloatArray,
+        common: FloatArray,
+        errors: FloatArray,
+        residuals: FloatArray | float = 0.0,
     ) -> SharedErrors:
         """Return those by errors of operating conditions.
 
@@ -48,8 +57,11 @@ class SharedErrors:
             Change of each value by the error that a condition has in common at all points.
         errors : float64[:], shape (n,)
             Standard deviations with these changes.
+        residuals : float64[:], shape (n,)
+            Measured less predicted values. Those that are outliers come last: so they say nothing of the errors in
+            common, and keep their size.
         """
-        every = [np.arange(errors.size)] if common.any() else []
+        every = [_outliers_last(residuals / errors, common / errors[:, None])] if common.any() else []
         several = tuple(group for group in every or groups if group.size > 1)
         place = np.empty(errors.size, dtype=np.int64)
         for number, group in enumerate(groups):
@@ -107,3 +119,45 @@ class SharedErrors:
         for group, matrix in zip(self.groups, self.correlations, strict=True):
             found[np.ix_(group, group)] = matrix * np.outer(errors[group], errors[group])
         return found
+
+
+def errors_of(data: Data, predicted: FloatArray, slopes: FloatArray | None) -> tuple[FloatArray, SharedErrors]:
+    """Return the errors of measured values and what they share.
+
+    Parameters
+    ----------
+    predicted : float64[:], shape (n,)
+        Values at the present parameters.
+    slopes : float64[:, :], shape (n, k)
+        Derivatives by the operating conditions that have errors; None where they are exact.
+
+    Returns
+    -------
+    tuple of (float64[:], SharedErrors)
+        Standard deviations with the errors of operating conditions and of instruments.
+    """
+    own = data.absolute(predicted)
+    moved, common = np.zeros((own.size, 0)), data.offsets(predicted)
+    if slopes is not None:
+        moved, of_all = data.moved(slopes)
+        common = np.hstack([of_all, common])
+    if not common.size:
+        return own, SharedErrors()
+    errors: FloatArray = np.sqrt(own**2 + np.sum(moved**2, axis=1) + np.sum(common**2, axis=1))
+    return errors, SharedErrors.of(data.groups, moved, common, errors, data.values - predicted)
+
+
+def _outliers_last(residuals: FloatArray, common: FloatArray) -> NDArray[np.int64]:
+    """Return the order of values, outliers last.
+
+    It is that of what the errors in common leave of the residuals. All is in units of the errors. The errors in common
+    are Huber's estimate with their size known beforehand, by iterated weights (Holland and Welsch 1977, Commun. Stat. A
+    6, 813).
+    """
+    own = np.sqrt(np.maximum(1.0 - np.sum(common**2, axis=1), _LEAST_OWN))
+    slopes, left = common / own[:, None], np.broadcast_to(residuals, own.shape) / own
+    found = np.zeros(common.shape[1])
+    for _ in range(_ITERATIONS):
+        weighted = slopes * huber_weights(left - slopes @ found)[:, None]
+        found = np.linalg.solve(np.eye(found.size) + weighted.T @ slopes, weighted.T @ left)
+    return np.argsort(np.abs(left - slopes @ found), kind="stable")

@@ -27,6 +27,7 @@ from lambda_core.analysis.band.quantities import (
 )
 from lambda_core.analysis.thermal.temperatures import ready, ready_rollers
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
 from lambda_core.domain.units import units_of
 from lambda_core.domain.written_values import quantities
 from lambda_core.fitting.operating_points import ROLLER_QUANTITIES, OperatingPoints, roller_values
@@ -74,6 +75,17 @@ class Subject(ABC):
 
         The shape is (positions of the balls, names).
         """
+
+    def solved(
+        self, changes: Sequence[str], parameters: Sequence[tuple[Graded, float]], names: Sequence[str], *, one: bool
+    ) -> FloatArray:
+        """Return the same; SolverError where a quantity is missing."""
+        found = self.values(changes, parameters, names, one=one)
+        missing = [name for name, column in zip(names, found.T, strict=True) if not np.isfinite(column).all()]
+        if missing:
+            why = "asperities connect the rings" if missing[0].endswith("capacitance") else "it is not finite"
+            raise SolverError(f"there is no {missing[0]}: {why}")
+        return found
 
     def point(self, changes: Sequence[str]) -> StaticPoint:
         """Return the operating point of the changed case."""

@@ -191,9 +191,7 @@ def _measured(data: Measurements) -> MeasuredTraction:
         if bool(np.any(column > most)):
             line = data.lines[int(np.argmax(column > most))]
             raise UsageError(f"{data.name} line {line}: a {name} is above {most:g}: is the unit in the header right?")
-    error = data.errors.get(_TRACTION)
-    if error is None and _TRACTION in data.shares:
-        error = data.shares[_TRACTION] * np.abs(values)
+    error = data.deviations(_TRACTION)
     return MeasuredTraction(
         file=data.name,
         slide_roll_ratio=data.conditions[_RATIO].tolist(),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -81,18 +82,23 @@ def fitted(
     is_error_known: bool,
     temperature_error: float = 0.0,
     common_error: float = 0.0,
+    offset: float = 0.0,
+    scale: float = 0.0,
     is_told: bool = True,
 ) -> Fit:
     """Fit one set of synthetic measurements.
 
-    The thermometer has a `common_error` at all points [K]; where it `is_told` to be none, each point has one.
+    The thermometer has a `common_error` at all points [K], the torque sensor an `offset` and an error of its `scale`;
+    where it `is_told` to be none, each point has one.
     """
     at, random = plan(), np.random.default_rng(seed)
     actual = at._replace(temperature=at.temperature + temperature_error * random.standard_normal(at.speed.size))
     if common_error:
         actual = actual._replace(temperature=actual.temperature + common_error * random.standard_normal())
-    errors = 0.01 * torque(TRUTH, at)
-    values = noise(random, torque(TRUTH, actual), errors)
+    own = 0.01 * torque(TRUTH, at)
+    values = noise(random, torque(TRUTH, actual), own)
+    values = values + offset * random.standard_normal() + scale * random.standard_normal() * torque(TRUTH, actual)
+    errors = own if is_told else np.sqrt(own**2 + offset**2 + (scale * torque(TRUTH, at)) ** 2)
     alone = math.hypot(temperature_error, 0.0 if is_told else common_error)
     inputs = np.full((values.size, 1), alone) if alone or common_error else np.zeros((0, 0))
     common = np.full((values.size, 1), common_error) if common_error and is_told else np.zeros((0, 0))
@@ -104,4 +110,7 @@ def fitted(
     known = errors if is_error_known else np.ones(values.size)
     columns = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
     data = Data(values, known, columns, inputs, is_error_known, not is_error_known, common_errors=common)
+    if is_told and (offset or scale):
+        errors_of_sensor, shares = (np.tile(one, (values.size, 1)) for one in ([offset, 0.0], [0.0, scale]))
+        data = replace(data, value_errors=errors_of_sensor, value_shares=shares)
     return fit(lambda p: torque(p, at), PARAMETERS, data, input_slopes=slopes if inputs.size else None)
