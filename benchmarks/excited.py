@@ -115,10 +115,10 @@ Mean of orbital over kinematic speed, less 1, in sectors of {SECTOR} degrees; th
 
 """
 _AFTER = """
-Before, balls outside the load zone touch the outer ring alone and are up to 1 % faster than they roll inside it. While
-the excitation grows, the inner ring presses them part of the time and drives them near kinematic speed: the profile
-becomes flat. Inside the load zone hardly anything changes. The paper's criteria, and the boundary over frequency and
-load, are on [the page on validation](validation.md#fig-5-altered-running-of-the-6220).
+Before, balls outside the load zone touch the outer ring alone and are up to 1.3 % faster than they roll inside it.
+While the excitation grows, the inner ring presses them part of the time and drives them near kinematic speed: the
+profile becomes flat. Inside the load zone hardly anything changes. The paper's criteria, and the boundary over
+frequency and load, are on [the page on validation](validation.md#fig-5-altered-running-of-the-6220).
 
 The shaft does not tilt in this case: the paper's rig has a shaft in a bearing system, which cannot rock about the
 loaded balls of one bearing as a lone ring would.
