@@ -16,7 +16,7 @@ from lambda_cli.main import main
 from lambda_core import api
 from lambda_core.domain.unit_systems import US
 from lambda_core.domain.wrapping import HEAD
-from lambda_core.export.report.chapters import model_inputs
+from lambda_core.export.report.chapters import case_chapter, model_inputs
 from lambda_core.model.machine_templates import shaft_text
 from lambda_core.results.model_band import Band, ModelBand
 
@@ -185,3 +185,18 @@ def test_a_report_has_the_inputs_of_every_bearing(motor: api.MachineModel) -> No
     assert users["rheology", "roelands"] == "ball inner, ball outer, rib outer (belt)"
     references = {one.law for one in inputs.citation.laws}
     assert {"normal_contact/hamrock-brewe", "normal_contact/iso-line"} <= references
+
+
+def test_a_report_of_a_case_can_be_about_one_of_its_bearings(
+    box_file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Leave the shaft and the other bearing out.
+
+    The refusal named a machine of one bearing.
+    """
+    assert main(["report", str(box_file), "--bearing", "rigth"]) == 2
+    assert '"rigth" is not a known bearing; nearest: right' in capsys.readouterr().err
+    chapter = case_chapter(api.check(box()), api.quasistatic(box()), bearing="right")
+    assert chapter.title == "6206 (SKF), right of box"
+    assert [part.name for part in chapter.bearings] == ["right"]
+    assert (chapter.sketch, chapter.overview, chapter.reactions) == ("", (), None)

@@ -393,17 +393,18 @@ def _is_case(source: str | PathLike[str]) -> bool:
 
 def _case_chapter(source: str | PathLike[str], bearing: str | None, cover: Cover) -> Chapter:
     """Return the chapter about a case at its operating point."""
+    from lambda_core.analysis.rotor.bearing_alone import bearing_number
     from lambda_core.analysis.thermal.temperatures import ready
-    from lambda_core.case.case_io import refuse_bearing
     from lambda_core.discovery.api import registry
     from lambda_core.export.report.chapters import case_chapter
     from lambda_core.export.report.page import machine_drawings
     from lambda_core.runs.api import quasistatic
 
-    refuse_bearing(bearing)
     model = ready(Path(source), is_static=True)
+    if bearing is not None:
+        bearing_number(model, bearing)  # refuses one that there is not
     found = quasistatic(model, band=True)
-    return case_chapter(model, found, cover.units, machine_drawings(registry(), model, found, cover))
+    return case_chapter(model, found, cover.units, machine_drawings(registry(), model, found, cover), bearing)
 
 
 def _cover(project: str, author: str, appendices: Sequence[str], units: str) -> Cover:

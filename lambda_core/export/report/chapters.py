@@ -170,7 +170,9 @@ def _geometry(model: Any) -> Mapping[str, Any]:
     return sizes if own is None else {**sizes, "rollers": own}
 
 
-def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = ()) -> Chapter:
+def case_chapter(
+    model: Any, found: Any, units: UnitSystem = SI, pictures: Sequence[Picture] = (), bearing: str | None = None
+) -> Chapter:
     """Return the chapter of a case.
 
     The case is at its operating point and describes one bearing or a machine.
@@ -181,10 +183,12 @@ def case_chapter(model: Any, found: Any, units: UnitSystem = SI, pictures: Seque
         The resolved case.
     found : QuasiStatic or MachineEquilibrium
         Its equilibrium.
+    bearing : str, optional
+        The only bearing of the machine that the chapter is about.
     """
-
     if hasattr(model, "bearings"):
-        return _machine_chapter(model, found, units, pictures)
+        chapter = _machine_chapter(model, found, units, pictures)
+        return chapter if bearing is None else _about_one(chapter, bearing)
     loads = _applied(model)
     speed = _speed(model)
     part = bearing_part(found, _geometry(model), loads=loads, speed=speed, units=units)
@@ -218,6 +222,13 @@ def _machine_chapter(model: Any, found: Any, units: UnitSystem, pictures: Sequen
         overview=(machine_figures(found, units),), reactions=machine_reactions(found, units), shown=tuple(pictures),
         inputs=model_inputs(model, units), notes=(_QUASISTATIC,),
     )  # fmt: skip
+
+
+def _about_one(chapter: Chapter, bearing: str) -> Chapter:
+    """Return a machine's chapter about one bearing, without the shaft."""
+    own = tuple(part for part in chapter.bearings if part.name == bearing)
+    title = f"{own[0].title}, {bearing} of {chapter.title.partition(':')[0]}"
+    return replace(chapter, title=title, bearings=own, sketch="", overview=(), reactions=None, shown=())
 
 
 _QUASISTATIC = "quasi-static: without time, vibration and cage; no confidence interval of a simulation applies"
