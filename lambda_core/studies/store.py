@@ -74,6 +74,15 @@ def readable(folder: Path) -> Iterator[None]:
         ) from None
 
 
+@contextmanager
+def _writable(target: str, advice: str = "") -> Iterator[None]:
+    """Refuse to write where there is no room; UsageError."""
+    try:
+        yield
+    except sqlite3.OperationalError as error:
+        raise UsageError(f"cannot write {target}: {error}{advice}") from None
+
+
 class Manifest:
     """Access to the manifest of one study.
 
@@ -123,19 +132,21 @@ class Manifest:
             (folder / "case.toml").write_text(case_toml, encoding="utf-8")
         except OSError as error:
             raise UsageError(f"cannot write the study into {folder}: {error.strerror}") from None
-        with closing(sqlite3.connect(path)) as database, database:
-            database.executescript(_SCHEMA)
-            values = {
-                "version": str(VERSION),
-                "study": json.dumps(study.model_dump(mode="json", exclude_unset=True)),
-                "case_toml": case_toml,
-                "title": title,
-            }
-            database.executemany("INSERT INTO meta VALUES (?, ?)", values.items())
-            database.executemany(
-                "INSERT INTO columns (kind, name, unit, meaning) VALUES (?, ?, ?, ?)",
-                [(h.kind, h.name, h.unit, h.meaning) for h in headings],
-            )
+        values = {
+            "version": str(VERSION),
+            "study": json.dumps(study.model_dump(mode="json", exclude_unset=True)),
+            "case_toml": case_toml,
+            "title": title,
+        }
+        columns = [(h.kind, h.name, h.unit, h.meaning) for h in headings]
+        try:
+            with _writable(f"the study into {folder}"), closing(sqlite3.connect(path)) as database, database:
+                database.executescript(_SCHEMA)
+                database.executemany("INSERT INTO meta VALUES (?, ?)", values.items())
+                database.executemany("INSERT INTO columns (kind, name, unit, meaning) VALUES (?, ?, ?, ?)", columns)
+        except UsageError:
+            path.unlink(missing_ok=True)  # a part of a manifest would be taken for a study
+            raise
         return Manifest(folder, write=True)
 
     # -- what it says --
@@ -231,7 +242,7 @@ class Manifest:
         """Append points; returns the number of the first."""
         first = int(self._database.execute("SELECT count(*) FROM points").fetchone()[0])
         rows = [(first + i, json.dumps(p.changes), json.dumps(p.coordinates)) for i, p in enumerate(points)]
-        with self._database:
+        with self._writing():
             self._database.executemany("INSERT INTO points (number, changes, coordinates) VALUES (?, ?, ?)", rows)
         return first
 
@@ -263,7 +274,7 @@ class Manifest:
             for o in outcomes
             if o.state != "stopped"
         ]
-        with self._database:
+        with self._writing():
             self._database.executemany(
                 "UPDATE points SET state = ?, reason = ?, hash = ?, responses = ?, file = ?, seconds = seconds + ? "
                 "WHERE number = ?",
@@ -272,8 +283,15 @@ class Manifest:
 
     def write_meta(self, name: str, value: str) -> None:
         """Set one entry about the complete study."""
-        with self._database:
+        with self._writing():
             self._database.execute("INSERT OR REPLACE INTO meta VALUES (?, ?)", (name, value))
+
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        """Write in one transaction, or say why not."""
+        advice = f"; make room, then go on with: lambda-bearing study resume {self.folder}"
+        with _writable(str(self.path), advice), self._database:
+            yield
 
     @contextmanager
     def directed(self) -> Iterator[None]:

@@ -354,7 +354,7 @@ def duration(seconds: float) -> str:
     for size, name in _UNITS:
         if seconds >= 1.5 * size:
             return f"{seconds / size:.3g} {name}"
-    return f"{seconds:.2g} s" if seconds >= 0.1 else f"{1e3 * seconds:.2g} ms"
+    return f"{seconds:.2g} s" if seconds >= 0.0995 else f"{1e3 * seconds:.2g} ms"  # never "1e+02 ms"
 
 
 def _bytes(size: float) -> str:
