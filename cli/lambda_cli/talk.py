@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 import typer
 
+from lambda_core.domain.number_text import counted
 from lambda_core.domain.wrapping import wrapped
 
 if TYPE_CHECKING:
@@ -182,7 +183,7 @@ def _state(progress: AnyProgress) -> str:
 
     if isinstance(progress, FitProgress):
         error = "" if progress.error_pct is None else f"  error {progress.error_pct:.2g} %"
-        return f"{progress.solved} points{error}"
+        return f"{counted(progress.solved, 'point')}{error}"
     if isinstance(progress, StudyProgress):
         failed = f", {progress.failed} failed" if progress.failed else ""
         return f"{progress.done}/{progress.points} points{failed}"

@@ -187,11 +187,12 @@ def fit(say: Say, case: dict[str, Any], data: str, vary: list[str], bearing: str
     The fit is of a case to a file of measurements.
     """
     from lambda_core import api
+    from lambda_core.domain.number_text import counted
     from lambda_core.domain.unit_systems import unit_system
 
     def follow(now: FitProgress) -> None:
         error = "" if now.error_pct is None else f", error {now.error_pct:.3g} %"
-        say(f"{now.solved} operating points solved{error}")
+        say(f"{counted(now.solved, 'operating point')} solved{error}")
 
     found = api.fit(case, data, vary, bearing=bearing, progress=follow, announce=say)
     return found, found.text(None, unit_system(units)), found.pictures()

@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from lambda_cli.talk import Lines
 
 from lambda_core.domain.errors import CaseError, EquilibriumError, LambdaError, Problem
 from lambda_core.fitting import operating_points, rows
@@ -94,3 +95,11 @@ def test_a_fit_tells_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
         now[0] += 1.0
         watch.heard(1)
     assert (told[-1].percent, told[-1].left_s) == (None, None)  # it takes longer than usual
+
+
+@pytest.mark.parametrize(("solved", "said"), [(1, "1 point  error"), (2, "2 points  error")])
+def test_the_progress_of_a_fit_counts_one_point(solved: int, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = Lines()
+    lines._last = -1e9
+    lines.update(FitProgress(solved=solved, error_pct=3.0, percent=10.0, wall_s=1.0, left_s=9.0))
+    assert said in capsys.readouterr().err
