@@ -266,11 +266,25 @@ def test_each_bearing_of_a_run_is_reported_with_its_own_geometry(monkeypatch: py
     machine: Any = SimpleNamespace(
         is_machine=True,
         bearing_names=["left", "right"],
-        summary=lambda: SimpleNamespace(bearings={"left": 1.0, "right": 2.0}),
         of_bearing=lambda name: SimpleNamespace(model=f"geometry of {name}"),
     )
-    parts: Any = chapters.run_bearings(machine, SI)
+    summary: Any = SimpleNamespace(bearings={"left": 1.0, "right": 2.0})
+    parts: Any = chapters.run_bearings(machine, summary, SI)
     assert parts == ((1.0, "geometry of left", "left"), (2.0, "geometry of right", "right"))
+
+
+def test_a_run_without_bands_has_them_in_its_report(tmp_path: Path) -> None:
+    """Compute the bands of all bearings.
+
+    Only those of a bearing alone were computed.
+    """
+    case = tmp_path / "box.toml"
+    case.write_text(shaft_text("geared-shaft", "box"), encoding="utf-8")
+    run = api.run(case, ["solver.duration=0.2 ms"], out=tmp_path / "box.h5")
+    assert all(one.model_band is None for one in run.summary().bearings.values())
+    text = api.report(run, tmp_path / "box.html").read_text(encoding="utf-8")
+    (bands,) = re.findall(r"torque, 90 % model band</td>(.*?)</tr>", text, re.DOTALL)
+    assert len(re.findall(r"\d+ *\.\. *\d+", bands)) == 3  # left, right, all bearings
 
 
 def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None:
@@ -286,8 +300,11 @@ def test_a_case_of_a_machine_has_a_report_with_its_shaft(tmp_path: Path) -> None
     assert page.text.count("minimum load") == 2
     assert page.text.count("load P, least") == 1  # the limits of both in one table
     assert page.tags.count("svg") == 1 + 1 + 2 * 2  # sketch, deflection and bending, section and loads of each
-    with pytest.raises(UsageError, match="leave out bearing"):
-        api.report(case, tmp_path / "x.html", bearing="left")
+    one = Page(api.report(case, tmp_path / "left.html", bearing="left").read_text(encoding="utf-8"))
+    assert "6208 (SKF), left of box" in one.text
+    assert "6206" not in one.text.partition("Inputs")[0]
+    with pytest.raises(UsageError, match='"lft" is not a known bearing; nearest: left'):
+        api.report(case, tmp_path / "x.html", bearing="lft")
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.export.report.input_tables import given_values, law_table, value_tables
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from lambda_core.results.citation import Citation
     from lambda_core.results.model_band import ModelBand
     from lambda_core.results.reader import Result
+    from lambda_core.results.summary import Summary
 
 _SIZES = ("bore_diameter", "outside_diameter", "width")
 
@@ -234,14 +236,25 @@ def _about_one(chapter: Chapter, bearing: str) -> Chapter:
 _QUASISTATIC = "quasi-static: without time, vibration and cage; no confidence interval of a simulation applies"
 
 
-def run_bearings(result: Result, units: UnitSystem) -> tuple[BearingPart, ...]:
-    """Return the parts of the bearings of a run."""
+def banded_summary(result: Result) -> Summary:
+    """Return the averages of a run with model bands.
+
+    A run without bands has them computed for its case.
+    """
     summary = result.summary()
+    if all(one.model_band is not None for one in summary.bearings.values()):
+        return summary
+    bands, each = _bands(result.case_toml), summary.bearings.items()
+    own = {name: one if one.model_band is not None else one.with_band(bands.get(name)) for name, one in each}
+    return summary.model_copy(update={"bearings": own})
+
+
+def run_bearings(result: Result, summary: Summary, units: UnitSystem) -> tuple[BearingPart, ...]:
+    """Return the parts of the bearings of a run."""
     several = result.is_machine and len(summary.bearings) > 1
-    band = None if result.is_machine or result.model_band is not None else _band(result.case_toml)
     return tuple(
         bearing_part(
-            one.with_band(band) if band is not None else one,
+            one,
             _geometry(result.of_bearing(name).model),
             name=name if several else "", loads=_carried(one), units=units,
         )
@@ -289,10 +302,10 @@ def _sentences(lines: Sequence[str], units: UnitSystem) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8)
-def _band(case_toml: str) -> ModelBand | None:
-    """Return the 90 % model band of a case.
+def _bands(case_toml: str) -> dict[str, ModelBand]:
+    """Return the 90 % model bands of a case's bearings.
 
-    It is one of a bearing, or None where there is none.
+    It is empty where there are none.
     """
     from lambda_core.analysis.band.model_band import model_band
     from lambda_core.case.case_io import toml_tables
@@ -301,8 +314,8 @@ def _band(case_toml: str) -> ModelBand | None:
     try:
         found = model_band(toml_tables(case_toml, "case"))
     except LambdaError:
-        return None
-    return found if isinstance(found, ModelBand) else None
+        return {}
+    return {ALONE: found} if isinstance(found, ModelBand) else found.bearings
 
 
 def run_inputs(result: Result, units: UnitSystem = SI) -> Inputs:

@@ -16,7 +16,7 @@ from lambda_core.domain.files import check_target
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.export.report.band_table import model_bands
-from lambda_core.export.report.chapters import Chapter, Inputs, Picture, run_bearings, run_inputs
+from lambda_core.export.report.chapters import Chapter, Inputs, Picture, banded_summary, run_bearings, run_inputs
 from lambda_core.export.report.gallery import every
 from lambda_core.export.report.key_tables import (
     Table,
@@ -93,7 +93,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
 
     The run is one of a bearing or of a machine.
     """
-    summary, units = result.summary(), cover.units
+    summary, units = banded_summary(result), cover.units
     pictures = _pictures(registry, result, "result", cover)
     overview: tuple[Table, ...] = ()
     sketch, shown, reactions = "", [], None
@@ -119,7 +119,7 @@ def run_chapter(registry: Registry, result: Result, cover: Cover = _NO_COVER) ->
         subtitle=f"{result.path.name}   {result.created[:16].replace('T', ' ')}",
         state="converged" if summary.converged else "not converged",
         good=summary.converged,
-        bearings=run_bearings(result, units),
+        bearings=run_bearings(result, summary, units),
         lines=tuple(units.sentence(result.headline).splitlines()),
         reasons=tuple(units.sentence(reason) for reason in summary.reasons),
         warnings=tuple(units.sentence(warning) for warning in summary.warnings),
