@@ -17,9 +17,10 @@ from lambda_core.analysis.thermal.temperatures import ready_model
 from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
-from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.domain.errors import EquilibriumError, SolverError, UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.domain.number_text import rounded
+from lambda_core.domain.time_limit import check_time
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.formulas.loading import CARRYING
 from lambda_core.results.answer import Answer, answers
@@ -150,7 +151,7 @@ def stribeck(
     fastest = FASTEST_FACTOR / (500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter))
     given = given or np.geomspace(SLOWEST, fastest, points).tolist()
     kernels = Kernels(model)
-    found = _points(model_at, given, fastest, kernels)
+    found, rolling = _points(model_at, given, fastest, kernels)
     torques = [sum(parts.values()) for parts, _, _ in found]
     names, (bands, notes) = dict.fromkeys(_PARTS.values()), _bands(model_at, given, torques) if band else ([], [])
     return SpeedCurve(
@@ -165,8 +166,15 @@ def stribeck(
         film_parameter=[film for _, _, film in found],
         note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
         + of_load
-        + ("" if model.rollers is None else f"; the equilibrium that continues the one at {fastest:.0f} 1/min"),
+        + ("" if model.rollers is None else _of_rollers(fastest, given, rolling)),
     )
+
+
+def _of_rollers(fastest: float, speeds: Sequence[float], rolling: Sequence[float]) -> str:
+    """Say which equilibria of rollers a curve has."""
+    followed = "" if len(rolling) == len(speeds) else f"; the equilibrium that continues the one at {fastest:.0f} 1/min"
+    rolled = f"; at {_span(rolling)} 1/min rollers roll: no steady motion with friction was found" if rolling else ""
+    return followed + rolled
 
 
 def _models(
@@ -225,33 +233,57 @@ def _span(speeds: Sequence[float]) -> str:
 
 def _points(
     model_at: Callable[[float], BearingModel], speeds: Sequence[float], fastest: float, kernels: Kernels
-) -> list[tuple[dict[str, float], float | None, float]]:
+) -> tuple[list[tuple[dict[str, float], float | None, float]], list[float]]:
     """Return torque and Lambda at every speed.
+
+    Also return the speeds at which rollers roll without skew: from the first one on, downwards, where no steady motion
+    of them is found, and beyond the fastest where none is.
 
     A slow, skewed roller leans on a rib or runs free between both: rollers come from the fastest speed, where films
     leave one equilibrium, by fixed speeds, so that no point depends on which others are asked for. Balls, and rollers
     beyond that speed, start anew.
     """
-    found, slower = {}, sorted({speed for speed in speeds if speed < fastest}, reverse=True)
-    if model_at(speeds[0]).rollers is None:
+    solved, slower = {}, sorted({speed for speed in speeds if speed < fastest}, reverse=True)
+    has_rollers = model_at(speeds[0]).rollers is not None
+    if not has_rollers:
         slower = []
     for speed in set(speeds).difference(slower):
-        found[speed] = _point(_anew(model_at, speed, kernels))
-    if slower:
-        near, at = _start(model_at, fastest, slower[0], kernels)
+        try:
+            solved[speed] = _anew(model_at, speed, kernels)
+        except EquilibriumError:
+            if not has_rollers:
+                raise
+    try:
+        if slower:
+            near, at = _start(model_at, fastest, slower[0], kernels)
         for speed in slower:
             while at / _STRIDE >= speed:
                 near, at = _all_follow(model_at, kernels, near, at, at / _STRIDE), at / _STRIDE
-            found[speed] = _point(_all_follow(model_at, kernels, near, at, speed))
-    return [found[speed] for speed in speeds]
+            solved[speed] = _all_follow(model_at, kernels, near, at, speed)
+    except EquilibriumError:
+        check_time("the Stribeck curve")
+    rolling = [speed for speed in speeds if speed not in solved]
+    solved |= {speed: _rolling(model_at, speed, kernels) for speed in rolling}
+    return [_point(solved[speed]) for speed in speeds], rolling
 
 
 def _anew(model_at: Callable[[float], BearingModel], speed: float, kernels: Kernels) -> dict[float, Any]:
-    """Return the equilibria at a speed by phase."""
+    """Return the equilibria at a speed by phase.
+
+    Where no motion of rollers is found there is another answer, so that no way leads through warmer oil.
+    """
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = model_at(speed)
-    return {phase: solve(model, kernels, phase=phase) for phase in _PHASES}
+    return {phase: solve(model, kernels, by_warmer_oil=model.rollers is None, phase=phase) for phase in _PHASES}
+
+
+def _rolling(model_at: Callable[[float], BearingModel], speed: float, kernels: Kernels) -> dict[float, Any]:
+    """Return the equilibria of rolling by phase."""
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    model = model_at(speed)
+    return {phase: solve(model, kernels, with_friction=False, phase=phase) for phase in _PHASES}
 
 
 def _start(
@@ -291,7 +323,7 @@ def _follow(model_at: Callable[[float], BearingModel], kernels: Kernels, near: A
         return continue_at_speed(model, near, kernels)
     except SolverError:
         if speed > _LEAST_STEP * faster:
-            return solve(model, kernels, phase=near.phase)
+            return solve(model, kernels, by_warmer_oil=model.rollers is None, phase=near.phase)
     middle = math.sqrt(faster * speed)
     near = _follow(model_at, kernels, near, faster, middle)
     return _follow(model_at, kernels, near, middle, speed)

@@ -1,10 +1,9 @@
 """Solve the quasi-static equilibrium of a bearing.
 
-A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic
-moment and the ball's motion from the equilibrium of its own friction, on the same kernels as
-the dynamics, which it starts. The cage is left out: a ball that the inner ring does not touch takes
-the mean orbital speed of the others. Each ball has the mean drag of one revolution: in the bearing no ball stays in the
-oil bath, and the cage carries it through.
+A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic moment and the ball's
+motion from the equilibrium of its own friction, on the kernels of the dynamics, which it starts. The cage is left out:
+a ball that the inner ring does not touch takes the mean orbital speed of the others. Each ball has the mean drag of one
+revolution: in the bearing none stays in the oil bath, and the cage carries it through.
 """
 
 from __future__ import annotations
@@ -130,6 +129,7 @@ def solve(
     *,
     strict: bool = True,
     by_warmer_oil: bool = True,
+    with_friction: bool = True,
     phase: float = 0.0,
     near: Equilibrium | None = None,
 ) -> Equilibrium:
@@ -142,6 +142,8 @@ def solve(
         unless the limit of wall time has passed.
     by_warmer_oil : bool
         Whether to go by way of warmer oil where the direct search fails, which takes ten times as long.
+    with_friction : bool
+        Whether friction moves the balls; without it they roll kinematically under their normal forces.
     phase : float
         Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
     near : Equilibrium, optional
@@ -180,18 +182,21 @@ def solve(
     assert state is not None
     creeps = without_friction(compiled, context, state)
     roll(model, frame, L.elements_in(context.bundle, state), contacts)
-    smooth, converged = state.copy(), True
+    smooth, converged = state.copy(), with_friction
     try:
-        report = _with_friction(compiled, context, state, strict=strict, by_warmer_oil=by_warmer_oil)
-        report = follow_paths(
-            context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
-        )
+        if with_friction:
+            report = _with_friction(compiled, context, state, strict=strict, by_warmer_oil=by_warmer_oil)
+            report = follow_paths(
+                context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
+            )
     except SolverError:
         if strict or is_late():
             raise
+        converged = False
+    if not converged:
         if creeps is not None:
-            raise creeps from None
-        state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
+            raise creeps
+        state, report = smooth, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
     channels = contact_channels(compiled, context, state)
     return solution(context, state, channels, report, phase=phase, converged=converged)
@@ -293,19 +298,9 @@ def _attempt(
 
     def advance(iterations: int) -> int:
         found: int = compiled.solve_static(
-            compiled.evaluate_pointer,
-            compiled.jacobian_pointer,
-            context.bundle,
-            context.blocks,
-            context.factors,
-            state,
-            1.0 / context.scale,
-            last,
-            trust,
-            held,
-            report,
-            iterations,
-        )
+            compiled.evaluate_pointer, compiled.jacobian_pointer, context.bundle, context.blocks, context.factors,
+            state, 1.0 / context.scale, last, trust, held, report, iterations,
+        )  # fmt: skip
         return found
 
     status: int = advance(0)  # begins the search, and decides which balls the cage drives
@@ -357,7 +352,8 @@ def _with_friction(
         near = by_viscosity_continuation(context, start, found) if is_worth_more else None
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
-            raise SolverError("; ".join([str(error), *beyond])) from None
+            error.args = ("; ".join([str(error), *beyond]),)
+            raise error from None
         state[:], report = near
         return report
 
