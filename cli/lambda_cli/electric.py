@@ -19,7 +19,7 @@ from lambda_cli.options import (
     WorkersOption,
 )
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_folder
 
 SourceArgument = Annotated[
@@ -146,6 +146,7 @@ def risk_map(
     The section electric of the case describes the circuit, with all bearings of a machine; --bearing selects the one
     to map. Speeds have equal ratios; without --speed they range from a tenth to twice the speed of the case. With
     --folder the map is a study: after an interruption, lambda-bearing electric-map FOLDER computes the missing points.
+    Exit code 5 when points have no answer; the table and the file name them with the reason.
     """
     from lambda_core import api
 
@@ -171,3 +172,5 @@ def risk_map(
     if draw is not None:
         for path in api.draw(found.picture(), draw, found.case):
             typer.echo(str(path), err=True)
+    if empty := sum(bool(point.message) for point in found.points):
+        raise PartialResultError(f"{empty} of {len(found.points)} points of the map have no answer")

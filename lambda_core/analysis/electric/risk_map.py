@@ -21,6 +21,7 @@ from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_core.views.chart import Field as Mesh
 
 QUIET = ("films hold", "metal", "no equilibrium")  # why nothing discharges
+_NAMED = 4  # points without an answer of which the text gives the reason
 _METAL = 0.05  # share of contacts and time from which on a point where nothing discharges is called metal
 
 
@@ -199,10 +200,18 @@ def map_text(found: RiskMap) -> str:
             "",
             "discharges through the bearing per second (metal: asperities short it; -: no equilibrium)",
             *rows,
+            *lines_under("empty", _reasons(found)),
             "",
             *lines_under("assumed", found.assumptions),
         ]
     )
+
+
+def _reasons(found: RiskMap) -> list[str]:
+    """Name the first points without an answer, and why."""
+    empty = [point for point in found.points if point.message]
+    named = [f"{one.speed_rpm:.5g} 1/min at {one.temperature_degC:.4g} degC: {one.message}" for one in empty[:_NAMED]]
+    return [*named, *([f"and {len(empty) - _NAMED} more: --out and --json name all"] if len(empty) > _NAMED else [])]
 
 
 def _rate(point: RiskPoint) -> str:
