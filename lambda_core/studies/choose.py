@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 _ALL = 1_000_000  # rows of the catalogue
 _TRIALS = 3  # equilibria that are solved at most for every bearing that is shown
 _LEAST_SAFETY = 1.0  # static, unless more is asked for
+_OF_ONE = {"have": "has", "are": "is", "do": "does", "need": "needs", "fit": "fits"}
 
 
 class Candidate(Record):
@@ -61,6 +63,11 @@ class Candidate(Record):
     power_loss_W: float | None
     met: bool = Field(description="whether all requirements and limits are met")
     reason: str = Field(description="verdict, or why it could not be computed")
+
+
+def _of_one(why: str) -> str:
+    """Return a reason of several bearings as that of one."""
+    return re.sub(r"^\w+|(?<=and )\w+", lambda verb: _OF_ONE.get(verb[0], verb[0]), why)
 
 
 class Choice(Record):
@@ -87,7 +94,8 @@ class Choice(Record):
         ]  # fmt: skip
         if not self.candidates:
             lines = ["no bearing of the catalogue fits"]
-        left = "; ".join(f"{count} {why}" for why, count in sorted(self.left_out.items(), key=lambda one: -one[1]))
+        reasons = sorted(self.left_out.items(), key=lambda one: -one[1])
+        left = "; ".join(f"{count} {why if count > 1 else _of_one(why)}" for why, count in reasons)
         return "\n".join([units.sentence(self.question), "", *lines, *(["", f"left out: {left}"] if left else [])])
 
 

@@ -108,3 +108,9 @@ def test_tapered_rollers_need_the_thrust_that_presses_them() -> None:
     alone = api.choose(**ROLLERS, kind="tapered")
     assert not alone.candidates
     assert set(alone.left_out) == {"have tapered rollers and need more axial load or a second bearing"}
+
+
+def test_a_reason_of_one_bearing_is_in_the_singular() -> None:
+    reasons = {"have angular contact and need more axial load": 1, "have rollers that carry no axial load": 1}
+    said = api.Choice(question="", candidates=[], left_out=reasons).text()
+    assert "1 has angular contact and needs more axial load; 1 has rollers that carry no axial load" in said
