@@ -43,7 +43,8 @@ def init(
         typer.Option(
             "--from",
             metavar="STUDY",
-            help="friction-map (default), warm-and-tight, what-decides, risk-map or cage-stability.",
+            help="friction-map (default), warm-and-tight, what-decides, risk-map or cage-stability; of machines: "
+            "machine-map.",
         ),
     ] = None,
     case: Annotated[
@@ -59,7 +60,8 @@ def init(
 
     friction-map: friction over speed and load, 500 points; warm-and-tight: the least friction that film and pressure
     allow, a search; what-decides: which parameter decides, Sobol' indices; risk-map: bearing currents over speed and
-    temperature, 200 points; cage-stability: where the cage turns steadily, 16 runs.
+    temperature, 200 points; cage-stability: where the cage turns steadily, 16 runs. machine-map is for machines: life
+    and losses over speed and temperature, 60 points.
     """
     from lambda_core import api
 

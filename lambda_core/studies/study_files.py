@@ -13,7 +13,7 @@ from lambda_core.domain.errors import CaseError, UsageError, nearest
 from lambda_core.domain.files import check_new
 from lambda_core.studies.definition import parse_study
 
-_USUAL = "friction-map"
+_USUAL, _OF_MACHINES = "friction-map", "machine-map"
 
 
 @cache
@@ -57,13 +57,15 @@ def init_study(
     name : str
         Letters, digits, dot, dash and underscore.
     start : str, optional
-        Study to start from, see :func:`study_examples`; default: the one called `name`, else friction-map.
+        Study to start from, see :func:`study_examples`; default: the one called `name`, else friction-map, or
+        machine-map where the case is a machine.
     path : path-like, optional
         Default: NAME.toml in the working directory.
     overwrite : bool
         Replace a file that stands there.
     case : str, optional
-        Built-in case or case file to put in; the ranges stay those of the example and want a look.
+        Built-in case, or case file from here or from the folder of the study, to put in; the ranges stay those of the
+        example and want a look.
 
     Returns
     -------
@@ -73,16 +75,20 @@ def init_study(
     Raises
     ------
     UsageError
-        When the file exists, cannot be written, or there is no such study to start from.
+        When the file exists, cannot be written, there is no such case or study to start from, or the study is one of
+        bearings and the case a machine.
     CaseError
-        When `name` cannot be a study's name.
+        When `name` cannot be a study's name, or the case is not TOML.
     """
     texts = example_texts()
-    chosen = start or (name if name in texts else _USUAL)
+    target = Path(path) if path is not None else Path(f"{name}.toml")
+    of_machine = case is not None and _is_machine(case, target.parent)
+    chosen = start or (name if name in texts else _OF_MACHINES if of_machine else _USUAL)
     if chosen not in texts:
         known = ", ".join(nearest(chosen, texts) or texts)
         raise UsageError(f'there is no study "{chosen}" to start from; there are: {known}')
-    target = Path(path) if path is not None else Path(f"{name}.toml")
+    if of_machine and chosen != _OF_MACHINES:
+        raise UsageError(f"{chosen} is a study of one bearing, and {case} is a machine: start from {_OF_MACHINES}")
     text = re.sub(rf"\b{re.escape(chosen)}\b", name, texts[chosen])
     if case is not None:
         text = re.sub(r"^case = .*$", lambda _: f"case = {_quoted(case)}", text, count=1, flags=re.M)
@@ -92,6 +98,13 @@ def init_study(
         raise CaseError(f'new study "{name}"', error.problems) from None
     save_text(text, check_new(target, overwrite))
     return target
+
+
+def _is_machine(case: str, folder: Path) -> bool:
+    """Tell whether a study's case is a machine."""
+    from lambda_core.case.case_io import is_machine
+
+    return is_machine(folder / case if (folder / case).is_file() else case)
 
 
 def _quoted(text: str) -> str:

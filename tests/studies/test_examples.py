@@ -44,6 +44,21 @@ def test_a_name_of_an_example_starts_from_it(tmp_path: Path) -> None:
     assert path.read_text(encoding="utf-8") == (STUDIES / "what-decides.toml").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("template", ["geared-shaft", "motor-shaft", "tapered-shaft"])
+def test_a_machine_starts_from_a_study_of_machines(template: str, tmp_path: Path) -> None:
+    """Write a study that the machine has the options for.
+
+    The usual one varies the load of one bearing, which no machine has.
+    """
+    api.init_case("box", template=template, path=tmp_path / "box.toml")
+    path = api.init_study("mine", path=tmp_path / "mine.toml", case="box.toml")
+    assert api.study_check(path, workers=2).points == 60
+    with pytest.raises(api.UsageError, match=r"box\.toml is a machine: start from machine-map"):
+        api.init_study("two", "what-decides", tmp_path / "two.toml", case="box.toml")
+    with pytest.raises(api.UsageError, match="neither a file nor a built-in case"):
+        api.init_study("two", path=tmp_path / "two.toml", case="bax.toml")
+
+
 def test_what_cannot_start_a_study_is_told(tmp_path: Path) -> None:
     target = tmp_path / "mine.toml"
     with pytest.raises(api.UsageError, match='no study "friction-mop" to start from; there are: friction-map'):
@@ -58,11 +73,14 @@ def test_what_cannot_start_a_study_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_every_file_is_a_study(path: Path) -> None:
-    estimate = api.study_check(path, workers=2)
+def test_every_file_is_a_study(path: Path, tmp_path: Path) -> None:
+    if path.stem == "machine-map":
+        api.init_case("geared-shaft", template="geared-shaft", path=tmp_path / "geared-shaft.toml")
+    study = api.init_study(path.stem, path=tmp_path / path.name)
+    estimate = api.study_check(study, workers=2)
     assert estimate.name == path.stem == tomllib.loads(path.read_text(encoding="utf-8"))["name"]
     assert not estimate.warnings
-    said = {"friction-map": 500, "what-decides": 384, "cage-stability": 16, "risk-map": 200}
+    said = {"friction-map": 500, "what-decides": 384, "cage-stability": 16, "risk-map": 200, "machine-map": 60}
     assert estimate.points == said.get(path.stem, estimate.points)
 
 
