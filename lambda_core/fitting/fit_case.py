@@ -354,6 +354,7 @@ def _points(subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str,
     if sizes:
         ends = predicted(problem, found, sizes)[1].band()
     standardised, left_out, outliers = found.standardised, found.left_out, found.outliers
+    independent = found.independent
     return [
         FittedPoint(
             **_where(subject, problem, entry),
@@ -363,6 +364,7 @@ def _points(subject: Subject, problem: CaseProblem, found: Fit, sizes: dict[str,
             band=[float(found.predicted[i] - own[i]), float(found.predicted[i] + own[i])],
             new_measurement_band=ends[i].tolist(),
             standardised_residual=float(standardised[i]),
+            independent_residual=float(independent[i]),
             left_out_error=float(left_out[i]),
             is_outlier=i in outliers,
         )

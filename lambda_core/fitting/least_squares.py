@@ -145,8 +145,8 @@ class Fit:
 
     @property
     def outliers(self) -> list[int]:
-        """Points whose residual is too large for their error."""
-        size = np.abs(self.standardised)
+        """Values whose residual, alone or among others, is too large."""
+        size = np.maximum(np.abs(self.standardised), np.abs(self.independent))
         if math.isinf(self.limit):
             size = size / np.sqrt(1.0 - U.leverages(self._basis))
         return [int(index) for index in np.flatnonzero(size > _OUTLIER)]

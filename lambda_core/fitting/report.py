@@ -47,6 +47,7 @@ class FittedPoint(Record):
         description="95 % band of one more measurement, with what the laws may be wrong by"
     )
     standardised_residual: float
+    independent_residual: float = Field(description="the same without what errors in common explain")
     left_out_error: float = Field(description="prediction from all other points, less the measured value")
     is_outlier: bool
 

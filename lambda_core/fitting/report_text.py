@@ -88,7 +88,9 @@ def _quality(report: FitReport) -> list[str]:
 
 
 def _outliers(report: FitReport) -> list[str]:
-    lines = [f"line {p.line} ({p.standardised_residual:+.1f} errors)" for p in report.points if p.is_outlier]
+    wrong = [p for p in report.points if p.is_outlier]
+    sizes = [max(p.standardised_residual, p.independent_residual, key=abs) for p in wrong]
+    lines = [f"line {p.line} ({size:+.1f} errors)" for p, size in zip(wrong, sizes, strict=True)]
     return [f"outliers, which count little: {', '.join(lines)}"] if lines else []
 
 

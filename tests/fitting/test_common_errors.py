@@ -169,6 +169,20 @@ def test_predictions_know_the_offset_of_the_same_sensor() -> None:
 
 
 @pytest.mark.usefixtures("closed_law")
+def test_an_outlier_is_named_that_is_smaller_than_the_offset() -> None:
+    """Make one torque wrong by 60 N mm, offset 50.
+
+    Its weight in the fit was a tenth, and nothing told of it.
+    """
+    lines = [
+        f"{speed},{930 + 0.1 * speed + (60 if speed == 1500 else speed % 3)},1,50" for speed in range(500, 2500, 250)
+    ]
+    found = _fit(f"{HEAD},{COMMON}", *lines)
+    assert [point.line for point in found.points if point.is_outlier] == [6]
+    assert "outliers, which count little: line 6 (+" in found.text()
+
+
+@pytest.mark.usefixtures("closed_law")
 def test_points_to_predict_without_errors_are_taken_as_exact() -> None:
     """Predict a value that has no column of errors.
 
