@@ -210,8 +210,8 @@ def _warned_by(found: Any) -> list[str]:
     Those of several bearings begin with their names.
     """
     return [
-        f"{name}: {text}" if len(found.each) > 1 else text
-        for name, one in found.each.items() for text in (*_not_met(one.verdict), *one.warnings)
+        f"{name}: {text}" if len(found.bearings) > 1 else text
+        for name, one in found.bearings.items() for text in (*_not_met(one.verdict), *one.warnings)
     ]  # fmt: skip
 
 

@@ -131,8 +131,8 @@ def cycle_view(
     They fit 80 columns, one for each bearing; the sum is in words.
     """
     tables: list[RenderableType] = []
-    for name, own in found.each.items():
-        tables += [*([Text(name, style="bold")] if name else []), _table(own, units), Text()]
+    for name, own in found.bearings.items():
+        tables += [*([Text(name, style="bold")] if len(found.bearings) > 1 else []), _table(own, units), Text()]
     (life, words), *others = found.lives
     further = "".join(f"   {_life(other)} h {of}" for other, of in others)
     text = Text.assemble(

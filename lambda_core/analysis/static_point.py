@@ -176,7 +176,7 @@ class BearingPoint(ABC):
     @property
     def mounted(self) -> BearingStatics:
         """The bearing among those of the answer."""
-        return self.point.summary.each[self.name or ALONE]
+        return self.point.summary.bearings[self.name or ALONE]
 
     @property
     def currents(self) -> CurrentNumbers:

@@ -245,17 +245,14 @@ def is_machine(source: Any) -> bool:
     Raises
     ------
     UsageError
-        When there is no such file or built-in case.
+        When it is no case, or there is no such file or built-in case.
     CaseError
         When the file is not TOML.
     """
-    if isinstance(source, Mapping):
-        return is_machine_case(source)
-    if not isinstance(source, str | Path):
-        written = source.written() if hasattr(source, "written") and not hasattr(source, "bearings") else {}
-        return hasattr(source, "bearings") or is_machine_case(
-            written
-        )  # a case or a model, or a machine built in Python
+    if isinstance(source, Case | MachineCase):
+        return isinstance(source, MachineCase)
+    if hasattr(source, "bearing_models"):
+        return hasattr(source, "bearings")  # a resolved model
     return is_machine_case(read_tables(source).data)
 
 

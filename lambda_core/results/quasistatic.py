@@ -144,19 +144,20 @@ class StaticAnswer(Answer):
         state = super().__getstate__()
         return state | {"__pydantic_private__": (state["__pydantic_private__"] or {}) | {"_model": None}}
 
-    @property
-    def each(self) -> Mapping[str, BearingStatics]:
-        """Every bearing by its name."""
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        @property
+        def bearings(self) -> Mapping[str, BearingStatics]:
+            """Every bearing by its name; a field of machines."""
 
     def bearing(self, name: str) -> BearingStatics:
         """Return one bearing by its name.
 
         UsageError with the nearest name where there is none.
         """
-        if name not in self.each:
-            raise UsageError(unknown_name("bearing", name, self.each))
-        return self.each[name]
+        if name not in self.bearings:
+            raise UsageError(unknown_name("bearing", name, self.bearings))
+        return self.bearings[name]
 
     def warned(self) -> list[str]:
         """Return all warnings.
@@ -211,7 +212,7 @@ class QuasiStatic(BearingStatics, StaticAnswer):
     inner_ring_tilt_mrad: list[float] = same_as(BearingSummary, "inner_ring_tilt_mrad", "about y and z")
 
     @property
-    def each(self) -> Mapping[str, BearingStatics]:
+    def bearings(self) -> Mapping[str, BearingStatics]:
         """The only bearing by the name that results give it."""
         return {ALONE: self}
 

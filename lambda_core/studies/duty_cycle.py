@@ -97,10 +97,11 @@ class CycleSum(Record):
     case: str
     cycle_h: float = Field(description="duration of one cycle")
 
-    @property
-    def each(self) -> Mapping[str, DutyCycle]:
-        """Cycle of each bearing by name, empty if alone."""
-        raise NotImplementedError
+    if TYPE_CHECKING:
+
+        @property
+        def bearings(self) -> Mapping[str, DutyCycle]:
+            """Cycle of each bearing by name; a field of machines."""
 
     @property
     def lives(self) -> list[tuple[float | None, str]]:
@@ -110,8 +111,8 @@ class CycleSum(Record):
     def told(self) -> list[tuple[str, str]]:
         """Return all warnings, each with its phase."""
         return [
-            (phase.name, f"{name}: {words}" if name else words)
-            for name, own in self.each.items()
+            (phase.name, f"{name}: {words}" if len(self.bearings) > 1 else words)
+            for name, own in self.bearings.items()
             for phase in own.phases
             for words in phase.warnings
         ]
@@ -134,9 +135,9 @@ class DutyCycle(CycleSum):
     assumptions: list[str]
 
     @property
-    def each(self) -> Mapping[str, DutyCycle]:
-        """This cycle alone."""
-        return {"": self}
+    def bearings(self) -> Mapping[str, DutyCycle]:
+        """This cycle by the name that results give the bearing."""
+        return {ALONE: self}
 
     @property
     def lives(self) -> list[tuple[float | None, str]]:
@@ -414,7 +415,7 @@ def _tables(path: Path) -> dict[str, Any]:
 def _solved(case: Case | MachineCase, announce: Callable[[str], None] | None, changes: Sequence[str]) -> SolvedPhase:
     """Solve a phase."""
     point = solved_point(ready(apply_overrides(case, changes), announce=announce, is_static=True), announce)
-    return SolvedPhase(point.speed_rpm, point.answer.each, point.model.warnings)
+    return SolvedPhase(point.speed_rpm, point.answer.bearings, point.model.warnings)
 
 
 def _written(value: bool | int | float | str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from pydantic import Field
@@ -33,11 +33,6 @@ class MachineDutyCycle(CycleSum):
     energy_loss_kWh_per_year: float | None = Field(description="of a cycle repeated without a pause, in 8766 h")
     warnings: list[str] = Field(description="geometric conflicts of parts on the shaft")
     assumptions: list[str]
-
-    @property
-    def each(self) -> Mapping[str, DutyCycle]:
-        """Cycle of each bearing by its name."""
-        return self.bearings
 
     @property
     def lives(self) -> list[tuple[float | None, str]]:

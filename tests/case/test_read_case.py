@@ -64,6 +64,8 @@ def test_modes_of_what_cannot_be_read_say_why(tmp_path: Path) -> None:
     (tmp_path / "box.toml").write_text('name = "box')
     with pytest.raises(api.CaseError, match=r"line 1|end of the file"):
         api.modes(tmp_path / "box.toml")
+    with pytest.raises(api.UsageError, match="NoneType is not a case"):
+        api.modes(None)  # type: ignore[arg-type]
 
 
 def test_an_option_of_one_bearing_is_none_of_a_machine(box: Path) -> None:

@@ -227,7 +227,7 @@ def test_a_machine_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixtur
     """Refuse questions about the other kind with advice."""
     (folder / "one.toml").write_text('name = "one"\n[bearing]\ndesignation = "SKF 6206"\n')
     assert main(["modes", str(folder / "one.toml")]) == 2
-    assert "--template geared-shaft" in capsys.readouterr().err
+    assert "--as-machine" in capsys.readouterr().err
     assert main(["init", "other", "--template", "geared-shaft", "--bearing", "SKF 6208"]) == 2
     assert "two bearings" in capsys.readouterr().err
     assert main(["init", "box", "--template", "geared-shaft", "--out", str(folder / "box.toml")]) == 2

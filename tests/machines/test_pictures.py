@@ -72,10 +72,10 @@ def test_both_kinds_of_equilibrium_name_their_bearings_alike() -> None:
         api.quasistatic("6208-axial-1300"),
         api.quasistatic(tomllib.loads(shaft_text("geared-shaft", "box"))),
     )
-    assert list(alone.each) == ["bearing"]
-    assert list(machine.each) == ["left", "right"]
+    assert list(alone.bearings) == ["bearing"]
+    assert list(machine.bearings) == ["left", "right"]
     for found in (alone, machine):
-        for name, one in found.each.items():
+        for name, one in found.bearings.items():
             assert found.bearing(name) is one
             assert len(one.ring_displacement_um) == 3
     with pytest.raises(api.UsageError, match="left"):

@@ -91,7 +91,7 @@ def test_the_answer_about_one_bearing_has_the_numbers_of_the_machine(box_file: P
     assert dict(one).items() >= dict(machine.bearing("right")).items()
     assert sorted(one.assumptions) == sorted(api.check(box_file).bearings[1].model.assumptions)
     assert one.of_bearing("right") is one
-    assert list(one.each) == ["right"]
+    assert list(one.bearings) == ["right"]
     stronger = one.with_(gears={"wheel": {"power": "20 kW"}})
     assert stronger.radial_load_N > one.radial_load_N
 

@@ -132,7 +132,7 @@ class MountedQuasiStatic(QuasiStatic, MountedState):
     """
 
     @property
-    def each(self) -> Mapping[str, BearingStatics]:
+    def bearings(self) -> Mapping[str, BearingStatics]:
         """The bearing by its name."""
         return {self.name: self}
 
@@ -183,11 +183,6 @@ class MachineEquilibrium(StaticAnswer):
     residual: float = Field(description="largest unbalanced force over the loads")
     warnings: list[str] = Field(default=[], description="geometric conflicts of parts on the shaft")
 
-    @property
-    def each(self) -> Mapping[str, BearingEquilibrium]:
-        """Every bearing by its name, from left to right."""
-        return self.bearings
-
     def bearing(self, name: str) -> BearingEquilibrium:
         """Return one bearing by its name.
 
@@ -219,7 +214,7 @@ class MachineEquilibrium(StaticAnswer):
         """Return an assumption's bearings and its text."""
         head, mark, text = assumption.partition(": ")
         names = head.split(", ")
-        return (names, text) if mark and self.each.keys() >= set(names) else ([], assumption)
+        return (names, text) if mark and self.bearings.keys() >= set(names) else ([], assumption)
 
     def warned(self) -> list[str]:
         """Return all warnings.

@@ -43,7 +43,7 @@ def equilibrium_text(found: MachineEquilibrium, width: int | None = None, units:
     The shaft and the sums come first, and a section for each bearing follows.
     """
     lines = _machine_lines(found, width, units)
-    for name in found.each:
+    for name in found.bearings:
         lines += ["", *statics_lines(found.of_bearing(name), width, units, is_section=True)]
     return "\n".join(wrapped(lines, width))
 

@@ -114,12 +114,15 @@ def _named(found: Any) -> dict[str, Any]:
 
     One that is alone needs no name in a picture.
     """
-    return {name if _has_shaft(found) else "": one for name, one in found.each.items()}
+    return {name if _has_shaft(found) else "": one for name, one in found.bearings.items()}
 
 
 def _has_shaft(found: Any) -> bool:
-    """Tell whether an equilibrium or modes are of a shaft."""
-    return hasattr(found, "bearings")
+    """Tell whether an equilibrium or modes are of a shaft.
+
+    Only those have matrices, with the axes of their rows.
+    """
+    return hasattr(found, "axes")
 
 
 def _titles(found: Any) -> str:
