@@ -10,6 +10,7 @@ import pytest
 from lambda_core import api
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers import ball_paths
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
@@ -69,3 +70,28 @@ def test_paths_are_found_at_low_speed_where_few_balls_carry(tmp_path: Path, capl
     box = api.init_case("box", template="geared-shaft", path=tmp_path / "box.toml")
     api.stribeck(box, bearing="left", speeds_rpm=[37.0, 68.0])
     assert not [record for record in caplog.records if "deviate from their paths" in record.getMessage()]
+
+
+def test_an_iteration_to_and_fro_ends_where_all_steps_would(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Solve a 3317A whose balls turn about.
+
+    All steps took twice as long and ended in the same state.
+    """
+    model = api.check(
+        {
+            "name": "double",
+            "bearing": {"designation": "3317A", "maker": "SKF"},
+            "lubricant": {"name": "FVA3A", "temperature": "60 degC"},
+            "loads": {"radial": "2 kN"},
+            "operation": {"speed": "1500 rpm"},
+            "bodies": {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}},
+        },
+        is_static=True,
+    )
+    asked: list[int] = []
+    monkeypatch.setattr(ball_paths, "path_velocities", lambda row: [asked.append(1), path_velocities(row)][1])
+    soon, few = solve(model, phase=0.125), len(asked)
+    monkeypatch.setattr(ball_paths, "_SAME", -1.0)
+    late = solve(model, phase=0.125)
+    assert few < 0.6 * (len(asked) - few)
+    assert soon.losses.sum() == pytest.approx(late.losses.sum(), rel=1e-4)

@@ -27,6 +27,7 @@ _MEMORY = 2  # steps of the iteration that are combined, as in source/start.c of
 _STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
 PATH_TOLERANCE = 0.05  # of the largest axial velocity
 NO_PATH = 1e-6  # of rolling
+_SAME = 0.02  # by which two differences agree of an iteration that goes to and fro
 # Solves for the equilibrium from a state, in place, and returns its report.
 Solve = Callable[[FloatArray], StaticReport]
 
@@ -41,8 +42,9 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
     is; so it does rollers. The iteration is the mixing of D. G. Anderson (1965, J. ACM 12, 547) in the form of H. F.
     Walker and P. Ni (2011, SIAM J. Numer. Anal. 49, 1715, eq. 2.2 and 2.3): steps of a fixed share diverge at low speed
-    where few balls carry. Where no equilibrium follows a step of the iteration, the last one stands; where velocities
-    and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
+    where few balls carry. Where no equilibrium follows a step of the iteration, the last one stands. Where friction
+    turns about with every step, it goes to and fro between two states and ends in the one that all steps end in. Where
+    velocities and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
 
     Parameters
     ----------
@@ -61,12 +63,16 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     moving = np.zeros((balls.size, 2))
     points: list[FloatArray] = []
     differences: list[FloatArray] = []
-    for _ in range(PATH_ITERATIONS):
+    sizes: list[float] = []
+    for number in range(PATH_ITERATIONS):
         aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
         across = float(np.abs(aim[:, 0]).max())
         change = float(np.abs(aim - moving)[:, 0].max())
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             return report
+        sizes.append(change / across)
+        if (PATH_ITERATIONS - number) % 2 == 0 and _goes_to_and_fro(sizes):
+            break
         points.append(moving.copy())
         differences.append(aim - moving)
         taken = _step_along(context.bundle, state, moving, _mixed(points, differences), solve)
@@ -81,6 +87,14 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         100.0 * PATH_TOLERANCE,
     )
     return report
+
+
+def _goes_to_and_fro(sizes: list[float]) -> bool:
+    """Tell whether differences repeat those of two steps before."""
+    latest, before = sizes[-2:], sizes[-4:-2]
+    return len(before) == len(latest) and all(
+        abs(now - then) <= _SAME * now for now, then in zip(latest, before, strict=True)
+    )
 
 
 def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArray:
