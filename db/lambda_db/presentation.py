@@ -14,6 +14,7 @@ from typing import Any, Literal, TypeVar
 from pydantic import BaseModel
 
 from lambda_core.catalogue.designation import designated, read_designation
+from lambda_core.catalogue.other_kinds import other_kind
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow, RollerRow, Value
 from lambda_core.catalogue.roller_designation import roller_designation
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, nearest, unknown_name
@@ -316,9 +317,8 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> AnyBearing | 
         *catalogue.names("material"),
         *catalogue.names("cage"),
     ]
-    raise CatalogueError(
-        "catalogue", [Problem("name", unknown_name("bearing, lubricant, material or cage", name, known))]
-    )
+    said = other_kind(name) or unknown_name("bearing, lubricant, material or cage", name, known)
+    raise CatalogueError("catalogue", [Problem("name", said)])
 
 
 Row = TypeVar("Row")
@@ -334,13 +334,16 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     """
     if rows:
         return rows
+    if kind == "bearing" and (said := other_kind(text)):
+        raise CatalogueError("search", [Problem("", said)])
     names = catalogue.names(kind)
     close = nearest(text.split()[-1], names) if text.split() else []
     hint = f"; nearest: {', '.join(close)}" if close else ""
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
         kinds = "deep groove, angular contact, four-point contact, double row and self-aligning"
-        holds = f"{kinds} ball bearings of {makers}, cylindrical, needle and tapered roller bearings; "
+        holds = f"{kinds} ball bearings of {makers}, cylindrical, needle and tapered roller bearings of one row, no "
+        holds += "spherical, toroidal or thrust bearings; "
         holds += "oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))

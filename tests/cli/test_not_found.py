@@ -48,3 +48,22 @@ def test_a_bad_name_is_blamed_on_the_new_case(
 def test_show_takes_bare_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["db", "show", "SKF", "6308", "C3"]) == 0
     assert "6308  SKF" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", [["show"], ["search"]])
+@pytest.mark.parametrize(
+    ("designation", "kind"),
+    [("22208", "spherical roller"), ("81112", "needle roller thrust"), ("NN 3008", "double row cylindrical roller")],
+)
+def test_kinds_that_are_not_simulated_are_named(
+    words: list[str], designation: str, kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["db", *words, designation]) == 3
+    said = capsys.readouterr().err
+    assert kind in said
+    assert "a kind that is not simulated; nearest kind: " in said
+
+
+def test_catalogue_says_which_rollers_it_has_not(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["db", "search", "spherical"]) == 3
+    assert "no spherical, toroidal or thrust bearings" in capsys.readouterr().err

@@ -34,6 +34,7 @@ def test_one_maker_needs_no_name(catalogue: SqlCatalogue) -> None:
         ("51208", None, "a thrust ball bearing, a kind that is not simulated; nearest kind: angular contact ball"),
         ("81112", None, "a cylindrical or needle roller thrust bearing, a kind that is not simulated"),
         ("29412 E", None, "a spherical roller thrust bearing, a kind that is not simulated"),
+        ("NN 3008 K", None, "a double row cylindrical roller bearing, a kind that is not simulated; nearest kind"),
         ("C 2216", None, "a toroidal roller bearing, a kind that is not simulated; nearest kind: needle rollers"),
     ],
 )
