@@ -43,10 +43,9 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
     )
     torque, scatter = _torque(summary, units)
     text.append(f"\nfriction torque {torque}", style="bold").append(f"   {verdict}\n", style=style)
+    turns = "roller orbits" if summary.full_complement else "cage revolutions"
     if summary.revolutions_averaged:
-        text.append(
-            f"{scatter}mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim"
-        )
+        text.append(f"{scatter}mean over {summary.revolutions_averaged} {turns}, 95 % confidence\n", style="dim")
     for reason in summary.reasons:
         text.append(f"  {reason}\n", style=colours["warning"])
     for warning in summary.warnings:
@@ -120,5 +119,6 @@ def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:
         text.append("\n")
     for name, value in parts.items():
         if not name.endswith(("_inner", "_outer")):
-            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{units.number(value, 'N mm'):>27}\n")
+            shown = "neighbours" if name == "cage" and summary.full_complement else name
+            text.append(f"{shown:<{_LABEL}}", style="dim").append(f"{units.number(value, 'N mm'):>27}\n")
     text.append("\n")

@@ -373,3 +373,8 @@ class BearingModel:
     def elements(self) -> str:
         """Name of the rolling elements."""
         return "balls" if self.rollers is None else "rollers"
+
+    @property
+    def full_complement(self) -> bool:
+        """True of rollers without a cage; of balls never."""
+        return self.rollers is not None and not self.depth.cage

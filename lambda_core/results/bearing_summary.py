@@ -65,6 +65,11 @@ class BearingSummary(Banded):
     )
     converged: bool = Field(description="whether its averages are known as well as the run needs them")
     reasons: list[str] = Field(description="why they are not; empty when they are")
+    full_complement: bool = Field(
+        description="whether rollers have no cage: then numbers of the cage are those of the rollers as they go round, "
+        "and its friction is that of neighbours",
+        default=False,
+    )
 
     friction_torque_Nmm: float | None = quantity(
         "dissipated power over |Omega_i - Omega_o|",

@@ -86,7 +86,9 @@ def _allowed(chosen: Window, together: float) -> float:
     return TORQUE_TOLERANCE * max(abs(chosen.interval.torque()), NEGLIGIBLE * abs(together))
 
 
-def shortfalls(solver: Solver, chosen: Window, residual: float, together: float = 0.0) -> list[str]:
+def shortfalls(
+    solver: Solver, chosen: Window, residual: float, together: float = 0.0, turns: str = "cage revolutions"
+) -> list[str]:
     """Return the unmet conditions of convergence.
 
     A sentence for each, without that of the end.
@@ -101,13 +103,15 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
         Torque of all bearings of a shaft, of which this is one [N m]: a bearing that hardly bears anything need not be
         known to a hundredth of its own torque where a thousandth of all is more. Contributions to an uncertainty that
         are a tenth of what is asked of the sum change none of its digits (JCGM 100:2008, 5.1.2 and 7.2.6).
+    turns : str
+        What is averaged over: orbits of the rollers where no cage turns.
     """
     found = []
     if chosen.revolutions and chosen.discarded < DISCARDED_AT_LEAST:
-        found.append(f"{chosen.discarded} cage revolutions were discarded, at least {DISCARDED_AT_LEAST} is needed")
+        found.append(f"{chosen.discarded} {turns} were discarded, at least {DISCARDED_AT_LEAST} is needed")
     needed = max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
     if chosen.revolutions < needed:
-        found.append(f"{chosen.revolutions} whole cage revolutions were averaged, at least {needed} are needed")
+        found.append(f"{chosen.revolutions} whole {turns} were averaged, at least {needed} are needed")
     else:
         torque = chosen.torque
         if not torque.half_width <= _allowed(chosen, together):
@@ -116,7 +120,7 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
             do = f"; about {wanted} would do" if wanted > chosen.revolutions + chosen.discarded else ""
             found.append(
                 f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
-                f"over {torque.count} cage revolutions{do}), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+                f"over {torque.count} {turns}{do}), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
                 + (f", or {100 * NEGLIGIBLE * TORQUE_TOLERANCE:g} % of the torque of all bearings" if together else "")
             )
     if not abs(residual) <= ENERGY_TOLERANCE:

@@ -56,6 +56,7 @@ class RollerStatics(Record):
     """Numbers of an equilibrium that only rollers have."""
 
     kind: str
+    full_complement: bool = Field(description="whether they have no cage", default=False)
     raceway_share: float | None = Field(description="of the raceways in the torque")
     rib_share: float | None = Field(description="of the ribs in the torque")
     heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")

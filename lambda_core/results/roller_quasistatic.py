@@ -219,6 +219,7 @@ def _of_rollers(
     turning, state, total = solved.friction is not None, solved.state, found.total
     return RollerStatics(
         kind=bearing.kind,
+        full_complement=bearing.full_complement,
         raceway_share=found.raceways / total if turning and total > 0.0 else None,
         rib_share=found.rib / total if turning and total > 0.0 else None,
         heat_factor=found.heat_factor if turning else None,

@@ -26,6 +26,14 @@ SECOND_CAGE = ("second_cage_spin_angle", "body_spin_angle")  # likewise, of the 
 ROLLING_LINE = 2.0 * math.sin(math.radians(10.0))
 
 
+def is_full_complement(model: Mapping[str, Any]) -> bool:
+    """Tell whether rollers of a resolved model have no cage.
+
+    Balls without one have their cage left out.
+    """
+    return model.get("rollers") is not None and not model["depth"]["cage"]
+
+
 def rolling_of(samples: Mapping[str, NDArray[np.float64]], geometry: Mapping[str, Any], *, are_rollers: bool) -> float:
     """Return cage speed over inner ring speed.
 

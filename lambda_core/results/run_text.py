@@ -73,11 +73,12 @@ def bearing_lines(one: BearingSummary, width: int | None, units: UnitSystem, alo
         The run, where the page is about this bearing alone: its end and force elements are those of the bearing.
     """
     converged = one.converged if alone is None else alone.converged
-    window = f"(95 %, {one.revolutions_averaged} cage revolutions)" if one.revolutions_averaged else "(whole run)"
+    turns = "roller orbits" if one.full_complement else "cage revolutions"
+    window = f"(95 %, {one.revolutions_averaged} {turns})" if one.revolutions_averaged else "(whole run)"
     return [
         *verdict_lines(one.verdict, units),
         *_torque_lines(one, window, converged, units),
-        *breakdown_lines(one.friction_breakdown_Nmm, units),
+        *breakdown_lines(one.friction_breakdown_Nmm, units, full_complement=one.full_complement),
         headed(one, "power_loss_W", units),
         *rating_lines(one.rating, units, one.reference_life_h_band),
         line(
@@ -88,7 +89,11 @@ def bearing_lines(one: BearingSummary, width: int | None, units: UnitSystem, alo
         ),
         *warning_lines([units.sentence(warning) for warning in one.warnings], width),
         *([headed(one, "input_torque_Nmm", units)] if one.input_torque_Nmm is not None else []),
-        line("cage speed", f"{shown(one, 'cage_speed_ratio')} of inner ring", *_cages(one)),
+        line(
+            "roller orbit" if one.full_complement else "cage speed",
+            f"{shown(one, 'cage_speed_ratio')} of inner ring",
+            *_cages(one),
+        ),
         line(
             "inner ring",
             f"{vector(one, 'inner_ring_displacement_um', units)} (mean)",

@@ -45,7 +45,7 @@ from lambda_core.results.quantity import FLOATING, SMALL, quantity, shown
 from lambda_core.results.rating import rated_verdict
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.ring_deformation import ring_deformations
-from lambda_core.results.rolling import ROLLING, SECOND_CAGE, rolling_of, second_cage_ratio
+from lambda_core.results.rolling import ROLLING, SECOND_CAGE, is_full_complement, rolling_of, second_cage_ratio
 from lambda_core.results.run_status import Status
 
 if TYPE_CHECKING:
@@ -249,7 +249,9 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
     integrals = result.integrals()
     settings, last = settings_of(result), integrals[-1]
     run_interval, chosen = Interval(integrals[0], last), window_of(result)
-    reasons = shortfalls(settings, chosen, run_interval.energy_residual(), together)
+    full = is_full_complement(result.model)
+    turns = {"turns": "roller orbits"} if full else {}
+    reasons = shortfalls(settings, chosen, run_interval.energy_residual(), together, **turns)
     start = float(chosen.interval.first[0])
     extremes = _Span.of(result, start)
     epicyclic = extremes.rolling
@@ -265,6 +267,7 @@ def _of_bearing(result: Result, status: Status, together: float) -> BearingSumma
         headline=result.headline,
         converged=not reasons,
         reasons=reasons,
+        full_complement=full,
         friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
         friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
         power_loss_W=finite(chosen.interval.torque() * chosen.interval.ratio("relative_angle", "time")),

@@ -248,7 +248,8 @@ def _friction_lines(found: QuasiStatic, units: UnitSystem) -> list[str]:
     own = found.rollers
     shares = "" if own is None else f"raceways {_percent(own.raceway_share)}, ribs {_percent(own.rib_share)}"
     loss = [headed(found, "power_loss_W", units)] if found.power_loss_W is not None else []
-    torque = headed(found, "friction_torque_Nmm", units, "(without cage)", shares)
+    left_out = "(without cage)" if own is None or not own.full_complement else "(neighbours left out)"
+    torque = headed(found, "friction_torque_Nmm", units, left_out, shares)
     return [torque, *breakdown_lines(found.friction_breakdown_Nmm, units), *loss]
 
 
@@ -310,10 +311,12 @@ def named(record: Record, name: str, units: UnitSystem = SI) -> str:
     return f"{quantity_of(record, name).column} {shown(record, name, units)}"
 
 
-def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -> list[str]:
+def breakdown_lines(
+    parts: Mapping[str, float | None], units: UnitSystem = SI, *, full_complement: bool = False
+) -> list[str]:
     """Return the parts of the friction torque.
 
-    Each ring has one line and the rest has one [N mm].
+    Each ring has one line and the rest has one [N mm]. In a full complement neighbours rub, and no cage does.
     """
     shown = {name: units.number(value, "N mm") for name, value in parts.items()}
     width = max(map(len, shown.values()), default=1)
@@ -323,7 +326,8 @@ def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -
         for ring in ("inner", "outer")
     ]
     rest = [name for name in _REST if parts.get(name) or (name in parts and name != "bending")]  # of elastic parts only
-    return [*rings, f"  {'':<6}" + "".join(f"  {name} {shown[name]}" for name in rest)]
+    words = {"cage": "neighbours"} if full_complement else {}
+    return [*rings, f"  {'':<6}" + "".join(f"  {words.get(name, name)} {shown[name]}" for name in rest)]
 
 
 def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str]:

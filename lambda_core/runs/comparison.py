@@ -149,7 +149,7 @@ def _simulated(summary: Summary, model: BearingModel) -> ComparedMethod:
     friction += [
         (name, sum(value for part, value in parts.items() if part.split("_")[0] in _SUMS[name])) for name in _PARTS
     ]
-    friction += [("cage", parts.get("cage"))]
+    friction += [("neighbours" if model.full_complement else "cage", parts.get("cage"))]
     numbers = [ComparedNumber(group="friction", name=name, value=value, unit="N mm") for name, value in friction]
     if summary.bearing_capacitance_nF is not None:
         value = 1e3 * summary.bearing_capacitance_nF
@@ -161,7 +161,8 @@ def _simulated(summary: Summary, model: BearingModel) -> ComparedMethod:
     if summary.cage_speed_ratio is not None:
         inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
         cage = (outer + summary.cage_speed_ratio * (inner - outer)) * 30.0 / math.pi
-        numbers.append(ComparedNumber(group="kinematics", name="cage speed", value=cage, unit="rpm"))
+        name = "roller orbit" if model.full_complement else "cage speed"
+        numbers.append(ComparedNumber(group="kinematics", name=name, value=cage, unit="rpm"))
     return ComparedMethod(
         name=SIMULATION,
         title="The dynamics of this project",

@@ -76,7 +76,7 @@ def estimate(model: BearingModel | MachineModel, announce: Callable[[str], None]
     trial = None if simulated is None else _trial(engine, turn, simulated)
     return Estimate(
         equilibrium=begun.point.answer, modes=begun.point.modes, simulated_s=simulated,
-        processor_s=None if trial is None else trial.seconds, basis=_basis(model.solver, simulated, turn, trial),
+        processor_s=None if trial is None else trial.seconds, basis=_basis(model, simulated, turn, trial),
     )  # fmt: skip
 
 
@@ -131,8 +131,9 @@ def _trial(engine: MotionEngine, turn: float, simulated: float) -> _Trial | None
     return _Trial(engine.time, spent, spent * simulated / engine.time)
 
 
-def _basis(solver: Solver, simulated: float | None, turn: float, trial: _Trial | None) -> str:
+def _basis(model: BearingModel | MachineModel, simulated: float | None, turn: float, trial: _Trial | None) -> str:
     """Say what an estimate follows from."""
+    solver, each = model.solver, model.bearing_models.values()
     if simulated is None:
         return "nothing turns and the case has no solver.duration: a run has no end of its own"
     if trial is None:
@@ -142,5 +143,6 @@ def _basis(solver: Solver, simulated: float | None, turn: float, trial: _Trial |
     elif simulated < _turns(solver) * turn:
         end = "solver.max_duration"
     else:
-        end = f"{_turns(solver)} turns of the slowest cage, the fewest after which a run can have converged"
+        slowest = "roller orbits" if all(one.full_complement for one in each) else "turns of the slowest cage"
+        end = f"{_turns(solver)} {slowest}, the fewest after which a run can have converged"
     return f"{end}; a trial of {1e3 * trial.simulated:.3g} ms took {1e3 * trial.spent:.3g} ms on this machine"

@@ -164,7 +164,8 @@ def stribeck(
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
         skf_Nmm=[skf for _, skf, _ in found] if own.rollers is None else _skf_of_rollers(own, given),
         film_parameter=[film for _, _, film in found],
-        note=f"quasi-static, mean over the positions of the {model.elements}, without cage"
+        note=f"quasi-static, mean over the positions of the {model.elements}, "
+        + ("neighbours left out" if model.full_complement else "without cage")
         + of_load
         + ("" if model.rollers is None else _of_rollers(fastest, given, rolling)),
     )

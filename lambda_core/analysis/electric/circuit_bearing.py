@@ -17,6 +17,7 @@ from lambda_core.model.bearing_model import ChosenLaw, ElectricModel
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.machine_model import MachineModel
 from lambda_core.model.settings.resolve_electric import resolve_electric
+from lambda_core.results.rolling import is_full_complement
 
 if TYPE_CHECKING:
     from lambda_core.model.bearing_model import BearingModel
@@ -49,6 +50,8 @@ class CircuitBearing:
         Composite rms roughness [m].
     of_lines : bool
         Whether its contacts are lines of rollers.
+    full_complement : bool
+        Whether its rollers have no cage.
     """
 
     name: str
@@ -59,6 +62,7 @@ class CircuitBearing:
     contexts: tuple[Context, Context]
     roughness: float
     of_lines: bool = False
+    full_complement: bool = False
 
 
 def electric_model(options: Electric, name: str) -> ElectricModel:
@@ -88,7 +92,8 @@ def circuit_bearings(model: BearingModel | MachineModel) -> list[CircuitBearing]
         own = dataclasses.replace(chosen, options=chosen.options.of_bearing(name))
         materials = {"ball": one.ball_material, "inner": one.inner_material, "outer": one.outer_material}
         bearing = _circuit_bearing(name or "bearing", model.name, own, one.geometry, materials, one.oil, one.roughness)
-        found.append(dataclasses.replace(bearing, of_lines=one.rollers is not None))
+        of_lines, full = one.rollers is not None, one.full_complement
+        found.append(dataclasses.replace(bearing, of_lines=of_lines, full_complement=full))
     return found
 
 
@@ -114,7 +119,9 @@ def of_run(result: Result, options: Electric) -> CircuitBearing:
     chosen = electric_model(options, str(result.path))
     roughness = float(model["roughness"])
     found = _circuit_bearing("bearing", result.case, chosen, geometry, materials, Oil(**oil), roughness)
-    return dataclasses.replace(found, of_lines=model.get("rollers") is not None)
+    return dataclasses.replace(
+        found, of_lines=model.get("rollers") is not None, full_complement=is_full_complement(model)
+    )
 
 
 def _circuit_bearing(

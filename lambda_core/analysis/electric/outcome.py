@@ -246,7 +246,7 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
         found.append("between the rings there is air outside the rolling elements")
     if options.film.seals == 0.0:
         found.append("seals are left out")
-    if options.cage is None:
+    if options.cage is None and not bearing.full_complement:
         found.append("the cage does not conduct")
     found += assumed(bearing.laws)
     found.append(

@@ -286,10 +286,11 @@ def _vector(record: Any, name: str, units: UnitSystem) -> tuple[str, str, str]:
 
 def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
     """Return the remaining averages of a run."""
+    full = summary.full_complement
     rows = (
         _figure(summary, "input_torque_Nmm", units),
-        _figure(summary, "cage_speed_ratio", units),
-        _figure(summary, "cage_speed_over_epicyclic", units),
+        _figure(summary, "cage_speed_ratio", units, "roller orbit over inner ring speed" if full else ""),
+        _figure(summary, "cage_speed_over_epicyclic", units, "roller orbit over kinematic orbit" if full else ""),
         *_known([_figure(summary, "second_cage_speed_ratio", units)]),
         _figure(summary, "bearing_capacitance_nF", units),
         _vector(summary, "inner_ring_displacement_um", units),
@@ -350,9 +351,10 @@ def rounded(value: float | None, digits: int = 3) -> str:
 def breakdown(summary: Any, units: UnitSystem = SI) -> Table:
     total = summary.friction_torque_Nmm
     parts = getattr(summary, "friction_breakdown_Nmm", {})
+    other = {"cage": "neighbours"} if getattr(summary, "full_complement", False) else {}
     rows = [
         (
-            name.replace("_", " "),
+            other.get(name, name.replace("_", " ")),
             rounded(None if value is None else units.value(value, "N mm")),
             f"{100.0 * value / total:.1f}" if total and value is not None else "",
         )
@@ -390,10 +392,11 @@ def in_unit(name: str, value: Any, unit: str, units: UnitSystem) -> tuple[str, s
 
 def convergence(summary: Any, units: UnitSystem = SI) -> Table:
     label = {name: one.label for name, one in quantities(type(summary)).items()}
+    turns = "roller orbits" if summary.full_complement else "cage revolutions"
     rows = [
         (label["simulated_s"], written(summary.simulated_s), "s"),
-        ("cage revolutions discarded", str(summary.revolutions_discarded), ""),
-        ("cage revolutions averaged", str(summary.revolutions_averaged), ""),
+        (f"{turns} discarded", str(summary.revolutions_discarded), ""),
+        (f"{turns} averaged", str(summary.revolutions_averaged), ""),
         in_unit(label["friction_torque_ci_Nmm"], summary.friction_torque_ci_Nmm, "N mm", units),
         (label["energy_residual"], written(summary.energy_residual), "of input"),
         (label["iteration_residual"], written(summary.iteration_residual), "of input"),

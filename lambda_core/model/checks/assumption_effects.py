@@ -8,6 +8,7 @@ from collections.abc import Sequence
 # Effect -> words that an assumption about it begins with or contains; the first match counts.
 _EFFECTS: tuple[tuple[str, str], ...] = (
     ("motion", r"^damping\b"),
+    ("neighbours", r"^cage_contact roller-roller\b|^no cage: neighbouring"),
     ("cage", r"^(cage|cage_contact|bodies\.cage)\b|pocket"),
     ("electric", r"^(permittivity|capacitance|breakdown|discharge|electric)"),
     (
@@ -68,7 +69,7 @@ def by_effect(assumptions: Sequence[str], *, everything: bool = False) -> list[t
         Each sentence with its source; otherwise published values and numerical settings are left out, and the
         parameters of a law are joined.
     """
-    names = ("load and life", "friction", "film", "temperature", "cage", "motion", "electric", _OTHER)
+    names = ("load and life", "friction", "film", "temperature", "cage", "neighbours", "motion", "electric", _OTHER)
     found: dict[str, list[str]] = {name: [] for name in names}
     for sentence in assumptions:
         if everything or weight(sentence) == _OPEN:

@@ -226,15 +226,16 @@ def evaluate_kinematics(inputs: RollerMethodInputs) -> MethodTable:
     bearing = inputs.bearing
     if inputs.relative_speed == 0.0:
         raise NotApplicable("nothing turns")
-    motion = rolling_motion(bearing, inputs.inner_speed, inputs.outer_speed)
+    motion, full = rolling_motion(bearing, inputs.inner_speed, inputs.outer_speed), bearing.full_complement
     turn = 2.0 * math.pi
     passes = {
-        "cage turns past the outer ring": abs(motion.cage - motion.outer) / turn,
+        "rollers go round the outer ring" if full else "cage turns past the outer ring": abs(motion.cage - motion.outer)
+        / turn,
         "outer ring pass": bearing.count * abs(motion.cage - motion.outer) / turn,
         "inner ring pass": bearing.count * abs(motion.inner - motion.cage) / turn,
         "roller turns": motion.spin / turn,
     }
-    rows = [MethodRow("kinematics", "cage speed", motion.cage * 30.0 / math.pi, "rpm")]
+    rows = [MethodRow("kinematics", "roller orbit" if full else "cage speed", motion.cage * 30.0 / math.pi, "rpm")]
     rows += [MethodRow("kinematics", name, value, "Hz") for name, value in passes.items()]
     return MethodTable(tuple(rows))
 

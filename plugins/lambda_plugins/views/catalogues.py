@@ -42,7 +42,8 @@ def catalogues(run: RunData, options: Options) -> ViewData:
     for group, (name, mechanisms) in enumerate(_PARTS):
         values = np.full(places.size, math.nan)
         values[0] = sum(v or 0.0 for key, v in found.items() if key.split("_")[0] in mechanisms)
-        series.append(Series(name, places, values, "bars", group=group))
+        shown = name.replace("cage", "neighbours") if summary.full_complement else name
+        series.append(Series(shown, places, values, "bars", group=group))
     totals = np.array([math.nan, *(value for _, value in others)])
     series.append(Series("total", places, totals, "bars", "reference"))
     panel = Panel(

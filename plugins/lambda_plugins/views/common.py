@@ -15,6 +15,7 @@ from lambda_core.formulas.kinematics import FrequencyOrders, cage_speed, frequen
 from lambda_core.model.bearing_model import Solver
 from lambda_core.plugins import FloatArray, NotApplicable, RunData, Series
 from lambda_core.results.convergence import window
+from lambda_core.results.rolling import is_full_complement
 
 BINS = 72  # over azimuth: 5 degrees each
 BODY = {"inner": 0, "outer": 1, "cage": 2}
@@ -42,10 +43,11 @@ def averaging(run: RunData) -> Span:
     settings = Solver(**{name: float(value) for name, value in run.model["solver"].items()})
     chosen = window(settings, run.revolutions(), run.integrals()[-1])
     start, end = float(chosen.interval.first[0]), float(chosen.interval.last[0])
+    turn = "roller orbit" if is_full_complement(run.model) else "cage revolution"
     if chosen.revolutions:
-        words = f"{chosen.revolutions} cage revolutions from {1e3 * start:.4g} to {1e3 * end:.4g} ms"
+        words = f"{chosen.revolutions} {turn}s from {1e3 * start:.4g} to {1e3 * end:.4g} ms"
         return Span(start, words)
-    return Span(start, f"the whole run, {1e3 * end:.4g} ms: no cage revolution to average over yet")
+    return Span(start, f"the whole run, {1e3 * end:.4g} ms: no {turn} to average over yet")
 
 
 def source(run: RunData) -> str:

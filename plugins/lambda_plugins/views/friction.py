@@ -27,6 +27,9 @@ def friction_breakdown(run: RunData, options: Options) -> ViewData:
     total = summary.friction_torque_Nmm
     if total is None:
         raise NotApplicable("the rings do not turn against each other: there is no friction torque")
+    neighbour, what = "cage", "cage: pockets and lands (neighbours against each other without cage)"
+    if summary.full_complement:
+        neighbour, what = "neighbours", "neighbours: rollers against each other"
     places = np.arange(len(PER_RING) + len(REST), dtype=float)
     series = []
     for ring in ("inner", "outer"):
@@ -38,14 +41,14 @@ def friction_breakdown(run: RunData, options: Options) -> ViewData:
     series.append(Series("elsewhere", places, rest, "bars", "cage"))
     panel = Panel(
         f"total {total:.4g} N mm",
-        Axis("", categories=(*PER_RING, *REST)),
+        Axis("", categories=(*PER_RING, neighbour, *REST[1:])),
         Axis("friction torque", "N mm", low=0.0),
         tuple(series),
         stacked=True,
     )
     notes = (
         f"dissipated power over |Omega_i - Omega_o|, mean over {averaging(run).words}",
-        "cage: pockets and lands (neighbours against each other without cage); drag: fluid on the elements",
+        f"{what}; drag: fluid on the elements",
     )
     return ViewData("friction-breakdown", "Friction torque by mechanism", source(run), (panel,), 1, notes)
 
