@@ -47,6 +47,7 @@ def test_displacement_velocity_and_acceleration_are_of_one_motion(radial_run: Re
     assert sizes["acceleration"] == pytest.approx(2.0 * np.pi * frequency * sizes["velocity"], rel=0.05)
     marks = {mark.label: mark.value for mark in views["velocity"].panels[2].marks}
     assert marks["BPFI + shaft"] - marks["BPFI - shaft"] == pytest.approx(2.0 * marks["shaft"])
+    assert marks["2 BSF + FTF"] - marks["2 BSF - FTF"] == pytest.approx(2.0 * marks["FTF"])
 
 
 def test_a_locked_housing_has_no_signal(radial_run: Result) -> None:

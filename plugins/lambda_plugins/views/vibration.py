@@ -124,7 +124,7 @@ def vibration(run: RunData, options: VibrationOptions) -> ViewData:
             _WIDTH * highest, (*lines, *_sidebands(marks)),
         ),
     )  # fmt: skip
-    words = "BPFI - shaft and BPFI + shaft: sidebands of a defect that turns through the loaded zone"
+    words = "BPFI ± shaft, 2 BSF ± FTF: sidebands of defects that turn through the loaded zone"
     notes = (
         f"{options.motion} of the {options.place} along {options.axis} over {span.words}; Hann window",
         f"envelope of all above {low:.4g} Hz; {words}",
@@ -214,12 +214,16 @@ def _spectra(
 
 
 def _sidebands(marks: dict[str, float]) -> tuple[Mark, ...]:
-    """Return the sidebands of an inner ring defect.
+    """Return the sidebands of defects that turn through the load.
 
-    The load zone makes them.
+    Those of the inner ring turn with the shaft, those of balls or rollers with the cage (Randall and Antoni 2011).
     """
-    inner, shaft = marks["BPFI"], marks["shaft"]
-    return (Mark("BPFI - shaft", inner - shaft, "x"), Mark("BPFI + shaft", inner + shaft, "x"))
+    pairs = (("BPFI", "shaft"), ("2 BSF", "FTF"))
+    return tuple(
+        Mark(f"{name} {sign} {turning}", marks[name] + (marks[turning] if sign == "+" else -marks[turning]), "x")
+        for name, turning in pairs
+        for sign in "-+"
+    )
 
 
 VIEWS = (
