@@ -268,9 +268,9 @@ def refuse_bearing(name: str | None) -> None:
 def is_machine_case(data: Mapping[str, Any]) -> bool:
     """Tell whether plain tables are a machine.
 
-    A machine is a shaft in bearings, not one bearing.
+    They have a table that only machines have, and no bearing that is alone.
     """
-    return "bearing" not in data and ("shaft" in data or "bearings" in data)
+    return "bearing" not in data and not Case.INSTEAD.keys().isdisjoint(data)
 
 
 def syntax_problem(message: str, text: str) -> Problem:

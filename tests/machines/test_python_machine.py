@@ -66,6 +66,18 @@ def test_mistakes_are_named_at_once_or_by_the_case() -> None:
         machine.quasistatic()
 
 
+@pytest.mark.parametrize("table", ["shaft", "gears", "discs", "connections", "housing"])
+def test_tables_of_machines_without_a_bearing_are_a_machine(table: str) -> None:
+    """Ask for its bearings.
+
+    Without them it counted as the case of one bearing, which has no gears.
+    """
+    machine = lb.Machine(speed="3000 rpm", oil=("FVA3", "70 degC"), **{table: {}})
+    with pytest.raises(CaseError, match=r"bearings +(is required|must have)") as refused:
+        machine.check()
+    assert "only machines have it" not in str(refused.value)
+
+
 def test_a_shaft_that_carries_only_its_weight_has_an_equilibrium() -> None:
     machine = lb.Machine(speed="3000 rpm", oil=("FVA3", "70 degC"))
     machine.shaft("170 mm x 40 mm")
