@@ -24,6 +24,17 @@ def banded(value: float | None, ends: Sequence[float], unit: str, plain: str, un
     return f"{texts[0]} {name} (model {texts[1]} .. {texts[2]})"
 
 
+def in_digits_of(value: float | None, ends: Sequence[float], unit: str, plain: str, units: UnitSystem = SI) -> str:
+    """Return a number in the digits of another one's band.
+
+    `plain` without a band.
+    """
+    if value is None or not ends or is_narrow(ends):
+        return plain
+    low, high = (units.value(number, unit) for number in ends)
+    return f"{rounded(units.value(value, unit), 0.5 * abs(high - low))} {units.unit(unit)}"
+
+
 def is_narrow(found: Sequence[float]) -> bool:
     """Tell whether a band is narrow.
 

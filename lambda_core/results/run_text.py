@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.number_text import NONE, swinging
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import lines_under, wrapped
-from lambda_core.results.band_text import banded
+from lambda_core.results.band_text import banded, in_digits_of
 from lambda_core.results.bearing_summary import BearingSummary
 from lambda_core.results.machine_numbers import said_once
 from lambda_core.results.quantity import quantities, quantity_of, shown
@@ -88,7 +88,7 @@ def bearing_lines(one: BearingSummary, width: int | None, units: UnitSystem, alo
             f"{named(one, 'film_parameter')} (central)",
         ),
         *warning_lines([units.sentence(warning) for warning in one.warnings], width),
-        *([headed(one, "input_torque_Nmm", units)] if one.input_torque_Nmm is not None else []),
+        *([_input_line(one, units)] if one.input_torque_Nmm is not None else []),
         line(
             "roller orbit" if one.full_complement else "cage speed",
             f"{shown(one, 'cage_speed_ratio')} of inner ring",
@@ -151,6 +151,13 @@ def _end_lines(summary: Summary, units: UnitSystem) -> list[str]:
         line("result", summary.file),
         *lines_under("not converged", summary.reasons),
     ]
+
+
+def _input_line(one: BearingSummary, units: UnitSystem) -> str:
+    """Return the torque of the drive in the friction's digits."""
+    fact, plain = _FACTS["input_torque_Nmm"], shown(one, "input_torque_Nmm", units)
+    text = in_digits_of(one.input_torque_Nmm, one.friction_torque_Nmm_band, fact.unit, plain, units)
+    return line(fact.label, text)
 
 
 def _torque_lines(

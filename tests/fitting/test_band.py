@@ -41,7 +41,7 @@ from lambda_core.fitting.measurements import parse_measurements
 from lambda_core.fitting.scores import interval_score
 from lambda_core.model.checking import check_bearing
 from lambda_core.model.machine_templates import shaft_text
-from lambda_core.results.band_text import banded, ends, source_lines
+from lambda_core.results.band_text import banded, ends, in_digits_of, source_lines
 from lambda_core.results.model_band import FIELDS, TEMPERATURES, Band, Contributor, ModelBand
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.solver.drivers import equilibrium
@@ -713,3 +713,13 @@ def test_a_band_is_given_up_where_changes_have_no_solution(monkeypatch: pytest.M
     assert found.model_band.bands == []
     assert "no model band: 3 of the first changes" in found.model_band.left_out[0]
     assert len(asked) == 3
+
+
+def test_the_torque_of_the_drive_has_the_digits_of_the_band() -> None:
+    """Round 1245.3 N mm as the friction torque.
+
+    It had five digits next to a band of 400 N mm.
+    """
+    plain = "1 245.3 N mm"
+    assert in_digits_of(1245.3, [1096.0, 1493.2], "N mm", plain) == "1 250 N mm"
+    assert in_digits_of(1245.3, [1245.0, 1246.0], "N mm", plain) == in_digits_of(1245.3, [], "N mm", plain) == plain
