@@ -53,6 +53,7 @@ from lambda_core.model.roller_loads import (
     outer_ring_loads,
     outer_speed,
     outer_support,
+    prescribed_pose,
     ring_masses,
 )
 from lambda_core.model.roller_mounting import in_operation
@@ -88,7 +89,7 @@ class RollerModel:
     loads : array
         On the inner ring: forces x, y, z [N], moments y, z [N m], (5,).
     held : tuple of bool
-        Which displacements of the inner ring are locked.
+        Which displacements of the inner ring are held.
     speeds : tuple of float
         Of inner and outer ring [rad/s].
     oil : OilState
@@ -262,6 +263,7 @@ def _model(case: Case, catalogue: Catalogue, known: Registry) -> RollerModel | N
         bearing=geometry,
         loads=loads,
         held=held,
+        displacement=prescribed_pose(case),
         loose=loose,
         support=support,
         outer_loads=outer_loads,

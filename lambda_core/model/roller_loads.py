@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 STRAIGHT = "the shaft holds the inner ring straight: tilts are locked where the case leaves them open"
 Held = tuple[bool, bool, bool, bool, bool]
+_HELD_OR_FREE = ("free", "locked")
 _FORCES = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
 
 
@@ -81,17 +82,19 @@ def _weight(case: Case, mass: float) -> FloatArray:
 
 
 def held_directions(case: Case, ledger: Ledger) -> Held:
-    """Return the locked displacements of the inner ring.
+    """Return the held displacements of the inner ring.
 
-    Tilts that the case leaves open are locked.
+    Tilts that the case leaves open are locked; others may be prescribed.
     """
     ring, found = case.bodies.inner_ring, []
     for name in POSE:
         mode = _mode(ring, name)
         written = name in ring.model_fields_set
-        if mode not in ("free", "locked"):
-            ledger.problem(f"bodies.inner_ring.{name}", "must be free or locked for roller bearings")
-        found.append(mode == "locked" or (name.startswith("tilt") and not written))
+        is_tilt = name.startswith("tilt")
+        if mode not in (*_HELD_OR_FREE, *(("prescribed",) if is_tilt else ())):
+            ways = "free, locked or prescribed" if is_tilt else "free or locked"
+            ledger.problem(f"bodies.inner_ring.{name}", f"must be {ways} for roller bearings")
+        found.append(mode in ("locked", "prescribed") or (is_tilt and not written))
         if found[-1] and _begins_away(case.bodies.outer_ring, name):
             ledger.problem(
                 f"bodies.outer_ring.{name}",
@@ -101,6 +104,17 @@ def held_directions(case: Case, ledger: Ledger) -> Held:
         ledger.assume(STRAIGHT)
     x, y, z, tilt_y, tilt_z = found
     return x, y, z, tilt_y, tilt_z
+
+
+def prescribed_pose(case: Case) -> FloatArray | None:
+    """Return the prescribed pose of the inner ring, (5,).
+
+    It is that at t = 0 [m, rad]; None where the case prescribes nothing.
+    """
+    motions = [getattr(getattr(case.bodies.inner_ring, name), "motion", None) for name in POSE]
+    if all(motion is None for motion in motions):
+        return None
+    return np.array([0.0 if motion is None else initial(time_function(motion)) for motion in motions])
 
 
 def _begins_away(ring: RingBody, name: str) -> bool:

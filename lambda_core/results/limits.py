@@ -22,8 +22,6 @@ from lambda_core.results.record import Record
 
 # Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76:2006, 5.1 and 5.2).
 _HIGHEST_PRESSURE, _HIGHEST_PRESSURE_ALIGNING = 4.2e9, 4.6e9  # [Pa] of self-aligning ball bearings the latter
-# Of rollers: ISO 76:2006, 5.3 to 5.6; 4 minutes of arc of series 2, SKF, Rolling bearings, 2018.
-ROLLER_TILT = 1.2e-3  # [rad]
 # Film parameter Lambda below which lubrication counts as that of a boundary layer: asperities carry much of the load
 # (Hamrock and Dowson 1981, Ball Bearing Lubrication).
 THINNEST_FILM = 1.0

@@ -38,11 +38,10 @@ from lambda_core.formulas.life import (
 from lambda_core.formulas.loading import CARRYING, Ring, carries
 from lambda_core.model.bodies.resolve_elastic import waves_of_rings
 from lambda_core.model.checks.loose_rings import loose_sentence
-from lambda_core.model.checks.operating_limits import operating_warnings, unbacked
+from lambda_core.model.checks.operating_limits import operating_warnings, tilt_warning, unbacked
 from lambda_core.model.settings.contamination import known_contamination
 from lambda_core.results.averages import finite
 from lambda_core.results.bearing_summary import Contact
-from lambda_core.results.limits import ROLLER_TILT
 from lambda_core.results.quasistatic import QuasiStatic, RollerLoad, RollerStatics
 from lambda_core.results.rating import Rating, rated_verdict
 from lambda_core.results.ring_shape import ring_shape
@@ -473,6 +472,4 @@ def _warnings(model: RollerModel, state: RollerEquilibrium, axial: float, limit:
     equivalent = _equivalent_load(model.bearing, state.carried[0], axial)
     found += unbacked(waves_of_rings(model.bearing), equivalent, model.bearing.dynamic_rating)
     tilt = float(np.hypot(state.ring[3], state.ring[4]))
-    if tilt > ROLLER_TILT:
-        found.append(f"tilt of the rings {1e3 * tilt:.2f} mrad is above the 4 minutes of arc of rollers (SKF, 2018)")
-    return found
+    return found + tilt_warning(tilt, None, on_shaft=True)

@@ -15,6 +15,7 @@ from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
 from lambda_core.model.checks.operating_limits import (
     LARGEST_LIFE_LOAD,
     OIL_TEMPERATURES,
+    ROLLER_TILT,
     is_preloaded,
     known_value,
     minimum_load,
@@ -22,7 +23,7 @@ from lambda_core.model.checks.operating_limits import (
     ratings,
     relative_speed,
 )
-from lambda_core.results.limits import ROLLER_TILT, highest_pressure
+from lambda_core.results.limits import highest_pressure
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:

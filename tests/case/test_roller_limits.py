@@ -11,6 +11,8 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError
 from lambda_core.elements.roller.roller_ratings import HIGHEST_ROLLER_PRESSURE
 from lambda_core.model.checks.describe import headline
+from lambda_core.model.checks.operating_limits import operating_warnings
+from lambda_core.solver.drivers.equilibrium import solve
 
 CASE: dict[str, Any] = {
     "name": "rollers",
@@ -57,8 +59,8 @@ def test_a_clearance_that_shortens_the_life_is_told(interference: str, is_told: 
 @pytest.mark.parametrize(
     ("bodies", "words"),
     [
-        ({"inner_ring": {"tilt_y": {"motion": "1 mrad"}}}, "inner_ring.tilt_y must be free or locked"),
-        ({"inner_ring": {"tilt_y": "50 N m/mrad"}}, "inner_ring.tilt_y must be free or locked"),
+        ({"inner_ring": {"y": {"motion": "1 um"}}}, r"inner_ring.y +must be free or locked"),
+        ({"inner_ring": {"tilt_y": "50 N m/mrad"}}, "inner_ring.tilt_y must be free, locked or prescribed"),
         ({"outer_ring": {"tilt_y": {"motion": "1 mrad"}}}, "outer_ring.tilt_y must begin at zero"),
     ],
 )
@@ -66,6 +68,37 @@ def test_tilts_that_no_operating_point_has_are_refused_everywhere(bodies: dict[s
     for ask in (api.check, api.quasistatic):
         with pytest.raises(CaseError, match=words):
             ask({**CASE, "bodies": bodies})
+
+
+@pytest.mark.parametrize(
+    ("designation", "loads"), [("NU 208", {"radial": "5 kN"}), ("SKF 32216", {"radial": "6.5 kN", "axial": "6 kN"})]
+)
+def test_a_prescribed_tilt_is_that_of_its_moment(designation: str, loads: dict[str, str]) -> None:
+    """Compare a prescribed with the free tilt under its moment.
+
+    The compiled equilibrium, which a run starts from, has the same pose and largest load.
+    """
+    tilted = {**CASE, "bearing": {"designation": designation}, "loads": loads}
+    prescribed = {**tilted, "bodies": {"inner_ring": {"tilt_y": {"mode": "prescribed", "motion": "1 mrad"}}}}
+    found = api.quasistatic(prescribed)
+    assert found.inner_ring_tilt_mrad == pytest.approx([1.0, 0.0], abs=1e-9)
+    assert found.rollers is not None
+    about_y, _ = found.rollers.inner_ring_moment_Nm
+    loaded = {**loads, "moment_y": f"{-about_y!r} N m"}
+    free = api.quasistatic({**tilted, "loads": loaded, "bodies": {"inner_ring": {"tilt_y": "free"}}})
+    assert free.inner_ring_tilt_mrad == pytest.approx([1.0, 0.0], abs=1e-6)
+    assert free.max_load_N == pytest.approx(found.max_load_N, rel=1e-6)
+    compiled = solve(api.check(prescribed), with_friction=False)
+    assert compiled.displacement[3] == pytest.approx(1e-3)
+    assert compiled.contacts[..., 0].max() == pytest.approx(found.max_load_N, rel=2e-3)
+
+
+def test_a_prescribed_tilt_beyond_the_limit_is_told() -> None:
+    bodies = {"inner_ring": {"tilt_z": {"mode": "prescribed", "motion": "2 mrad"}}}
+    words = "roller bearings take up to 1.2 mrad"
+    case = {**CASE, "bodies": bodies}
+    assert any(words in one for one in api.quasistatic(case).warnings)
+    assert any(words in one for one in operating_warnings(api.check(case)))
 
 
 def test_a_band_without_ends_is_left_out() -> None:

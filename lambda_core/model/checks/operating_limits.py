@@ -73,6 +73,10 @@ def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[s
     ]
 
 
+ROLLER_TILT = 1.2e-3  # [rad] of series 2: SKF, Rolling bearings, PUB BU/P1 17000 EN (2018)
+_OF_ROLLERS = "roller bearings take up to 1.2 mrad (4 minutes of arc; SKF, 2018)"
+
+
 def permissible_tilt(kind: str) -> float:
     """Return the permissible tilt of a kind [rad].
 
@@ -81,18 +85,20 @@ def permissible_tilt(kind: str) -> float:
     return kinds()[kind].tilt
 
 
-def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
+def tilt_warning(
+    tilt: float, kind: str | None, what: str = "the inner ring tilts by", *, on_shaft: bool = False
+) -> list[str]:
     """Return a warning of too much tilt.
 
-    The angle between the rings [rad] is above what bearings of a kind take.
+    The angle between the rings [rad] is above what bearings of a kind take; the kind is None of rollers.
     """
-    found = kinds()[kind]
-    if tilt <= found.tilt:
+    most, words = (ROLLER_TILT, _OF_ROLLERS) if kind is None else (kinds()[kind].tilt, kinds()[kind].tilt_words)
+    if tilt <= most:
         return []
     if on_shaft:
-        return [f"{what} {1e3 * tilt:.2g} mrad: {found.tilt_words}"]
+        return [f"{what} {1e3 * tilt:.2g} mrad: {words}"]
     return [
-        f"{what} {1e3 * tilt:.2g} mrad: {found.tilt_words}; a shaft on two bearings hardly tilts like this "
+        f"{what} {1e3 * tilt:.2g} mrad: {words}; a shaft on two bearings hardly tilts like this "
         "(bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
     ]
 
@@ -267,7 +273,8 @@ def _tilt(model: BearingModel) -> list[str]:
     prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
     about_y, about_z = prescribed[0] + prescribed[2], prescribed[1] + prescribed[3]
     tilt = math.hypot(about_y, about_z)
-    return tilt_warning(tilt, model.geometry.kind.name, "the case tilts the rings against each other by")
+    kind = model.geometry.kind.name if model.rollers is None else None
+    return tilt_warning(tilt, kind, "the case tilts the rings against each other by")
 
 
 def _oil(model: BearingModel) -> Iterator[str]:
