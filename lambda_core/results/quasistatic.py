@@ -61,6 +61,7 @@ class RollerStatics(Record):
     rib_share: float | None = Field(description="of the ribs in the torque")
     heat_factor: float | None = Field(description="of inlet heating on the rolling resistance")
     supply_factor: float | None = Field(description="of replenishment on the rolling resistance")
+    min_film_um: float | None = Field(description="smallest minimum film of the raceways under load", default=None)
     rib_load_N: float = Field(description="largest load of a rib")
     rib_pressure_GPa: float
     rib_film_um: float | None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -168,7 +168,7 @@ def roller_statics(
     found = solved.friction or RollerFriction()
     carried = np.maximum(state.inner.sum(axis=1), state.outer.sum(axis=1))
     loads = {"inner": state.inner, "outer": state.outer}
-    films = [film[carries(loads[ring].sum(axis=1))] for ring, film in found.contact_film.items()]
+    films = _carried(found.contact_film, state)
     carrying = np.concatenate(films) if turning else np.zeros(0)
     radial, axial = state.carried
     limit = _limit(bearing, model.lubrication, radial, motion.relative)
@@ -211,6 +211,11 @@ def roller_statics(
     }
 
 
+def _carried(films: Mapping[str, FloatArray], state: RollerEquilibrium) -> list[FloatArray]:
+    """Return the films of contacts that carry load, by ring."""
+    return [film[carries(getattr(state, ring).sum(axis=1))] for ring, film in films.items()]
+
+
 def _of_rollers(
     bearing: RollerBearing, solved: SolvedRollers, found: RollerFriction, limit: AxialLimit | None
 ) -> RollerStatics:
@@ -223,6 +228,9 @@ def _of_rollers(
         rib_share=found.rib / total if turning and total > 0.0 else None,
         heat_factor=found.heat_factor if turning else None,
         supply_factor=found.supply_factor if turning else None,
+        min_film_um=finite(
+            1e6 * min((float(film.min()) for film in _carried(found.minimum_film, state)), default=math.nan)
+        ),
         rib_load_N=max(float(one.ribs.max(initial=0.0)) for one in solved.states),
         rib_pressure_GPa=1e-9 * found.rib_pressure,
         rib_film_um=finite(1e6 * found.rib_film),

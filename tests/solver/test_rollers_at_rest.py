@@ -14,6 +14,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.elements.roller.roller_friction import friction
+from lambda_core.formulas.loading import CARRYING
 from lambda_core.model.roller_case import rollers_at_rest
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.roller_quasistatic import solve_rollers
@@ -79,11 +80,17 @@ def test_a_run_starts_from_the_numbers_of_the_operating_point(name: str) -> None
     that the torque of the operating point is the mean over one pitch.
     """
     model = api.check(case(name))
-    start, answer = quasistatic_of(solve(model)), api.quasistatic(case(name))
+    found, answer = solve(model), api.quasistatic(case(name))
+    start = quasistatic_of(found)
     assert isinstance(answer, QuasiStatic)
+    assert answer.rollers is not None
     assert start.max_load_N == pytest.approx(answer.max_load_N, rel=3e-3)
     assert start.max_pressure_GPa == pytest.approx(answer.max_pressure_GPa, rel=4e-3)
     assert start.film_um[0] == pytest.approx(answer.film_um[0], rel=1e-3)
+    load, film = (found.contacts[..., CONTACT_CHANNELS.index(channel)] for channel in ("load", "film_minimum"))
+    thinnest = 1e6 * film[load > CARRYING * load.max()].min()
+    assert thinnest == pytest.approx(answer.rollers.min_film_um, rel=2e-3)  # it was the smallest central film
+    assert thinnest < 0.8 * answer.film_um[0]
     assert start.friction_torque_Nmm == pytest.approx(answer.friction_torque_Nmm, rel=0.02)
 
 

@@ -205,7 +205,7 @@ def _read(answer: QuasiStatic, name: str, model: RollerModel) -> float:
     return {
         "friction torque": torque,
         "power loss": 1e-3 * torque * abs(model.speeds[0] - model.speeds[1]),
-        "minimum film": answer.film_um[0] if answer.film_um else math.nan,
+        "minimum film": _or_nan(answer.rollers.min_film_um if answer.rollers else None),
         "maximum pressure": answer.max_pressure_GPa,
         "capacitance": _or_nan(answer.bearing_capacitance_nF),
         "rating life": _or_nan(life),

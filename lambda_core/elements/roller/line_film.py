@@ -93,6 +93,25 @@ def dowson_toyoda_film(
     return film
 
 
+def minimum_share(
+    line_load: FloatArray | float,
+    radius: FloatArray | float,
+    speed: FloatArray | float,
+    viscosity: float,
+    pressure_viscosity: float,
+    e_eff: float,
+) -> FloatArray:
+    """Return the minimum over the central film [-].
+
+    Dowson's minimum 2.65 U^0.70 G^0.54 W^-0.13 (Dowson 1968, Proc. IMechE 182, 151) over the central film of
+    :func:`dowson_toyoda_film`, with its parameters; at most 1.
+    """
+    stiffness = e_eff * radius
+    flow, load = viscosity * speed / stiffness, line_load / stiffness
+    share = 2.65 / 3.06 * flow**0.01 * (pressure_viscosity * e_eff) ** -0.02 * load**-0.03
+    return np.asarray(np.minimum(share, 1.0))
+
+
 def inlet_heat_film(
     speed: FloatArray | float,
     slide: FloatArray | float,

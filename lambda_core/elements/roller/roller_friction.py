@@ -121,6 +121,7 @@ class RollerFriction:
     drag: float = 0.0
     film: dict[str, FloatArray] = field(default_factory=dict)  # central film of every slice [m], (Z, n); NaN unloaded
     contact_film: dict[str, FloatArray] = field(default_factory=dict)  # central film of every contact [m], (Z,)
+    minimum_film: dict[str, FloatArray] = field(default_factory=dict)  # the same of the minimum film
     film_parameter: dict[str, float] = field(default_factory=dict)  # smallest Lambda under load by ring
     pressure: dict[str, float] = field(default_factory=dict)  # largest Hertz pressure by ring [Pa]
     rib_film: float = math.nan  # smallest of the loaded ribs [m]
@@ -192,6 +193,7 @@ def friction(
         drag=par.drag_factor * bath,
         film={ring: part.film for ring, part in found.items()},
         contact_film={ring: part.contact_film for ring, part in found.items()},
+        minimum_film={ring: part.minimum_film for ring, part in found.items()},
         film_parameter={
             ring: float(np.nanmin(part.contact_film)) / par.raceway_roughness if np.any(loads[ring] > 0.0) else math.nan
             for ring, part in found.items()
@@ -234,6 +236,7 @@ class _Raceway:
     hysteresis: float
     film: FloatArray
     contact_film: FloatArray
+    minimum_film: FloatArray
     pressure: FloatArray
     traction: FloatArray  # shear force of the contact [N], (Z,), without heat and supply
     ease: FloatArray  # slip per force [m/(s N)], (Z,)
@@ -268,6 +271,7 @@ def _raceway(
     half = np.where(carried, half_width(load, radius, modulus), 0.0)
     peak = np.where(carried, peak_pressure(load, radius, modulus), 0.0)
     film = slice_films(bearing, ring, loads, motion, oil, par)
+    of_contact = contact_film(bearing, ring, loads, motion, oil, par)
     couple = 2.0 / (3.0 * math.pi) * par.loss_factor * line_load * half
     thick = np.minimum(oil.viscosity * np.exp(np.minimum(oil.pressure_viscosity * 0.5 * peak, 60.0)), 1e6)
     shear = thick * 2.0 * half / film + flow_shear(radius, oil.viscosity, film)
@@ -276,7 +280,8 @@ def _raceway(
         rolling=float(2.0 * np.sum(force * speed) * width),
         hysteresis=float(np.sum(couple) * width * motion.roller_speed(ring)),
         film=film,
-        contact_film=contact_film(bearing, ring, loads, motion, oil, par),
+        contact_film=of_contact,
+        minimum_film=of_contact * line_film.minimum_share(*_even_lines(bearing, ring, loads, motion, oil)),
         pressure=peak,
         traction=np.sum(force, axis=1) * width,
         ease=np.where(per_slip > 0.0, 1.0 / np.where(per_slip > 0.0, per_slip, 1.0), 0.0),
@@ -316,18 +321,27 @@ def contact_film(
 ) -> FloatArray:
     """Return the central film of every contact [m], (Z,).
 
-    Its load lies evenly on the length with the same integral of the root of the load per length, as in motion; NaN
-    without load.
+    It is that of :func:`_even_lines`; NaN without load.
+    """
+    inlet = _, radius, speed, *_, modulus = _even_lines(bearing, ring, loads, motion, oil)
+    peak = peak_pressure(loads.max(axis=1) * (loads.shape[1] / bearing.effective_length), radius, modulus)
+    heat = THERMAL_LAWS[par.thermal_law](speed, peak, modulus, oil)
+    return np.where(loads.sum(axis=1) > 0.0, FILM_LAWS[par.film_law](*inlet) * heat, np.nan)
+
+
+def _even_lines(
+    bearing: RollerBearing, ring: Ring, loads: FloatArray, motion: RollerMotion, oil: OilState
+) -> tuple[FloatArray, FloatArray, FloatArray, float, float, float]:
+    """Return what laws of the inlet take of whole contacts.
+
+    Their load lies evenly on the length with the same integral of the root of the load per length, as in motion.
     """
     total, width = loads.sum(axis=1), bearing.effective_length / loads.shape[1]
     carries = total > 0.0
     length = np.where(carries, width * np.sum(np.sqrt(loads), axis=1) ** 2 / np.where(carries, total, 1.0), 1.0)
     even = np.where(carries, total / length, 1.0)
-    _, radius, speed, *rest = _inlets(bearing, ring, even[:, None], motion, oil)
-    radius, speed, modulus = radius[0] + 0.0 * even, speed[0] + 0.0 * even, bearing.modulus(ring)
-    peak = peak_pressure(loads.max(axis=1) / width, radius, modulus)
-    heat = THERMAL_LAWS[par.thermal_law](speed, peak, modulus, oil)
-    return np.where(carries, FILM_LAWS[par.film_law](even, radius, speed, *rest) * heat, np.nan)
+    _, radius, speed, viscosity, pressure_viscosity, modulus = _inlets(bearing, ring, even[:, None], motion, oil)
+    return even, radius[0] + 0.0 * even, speed[0] + 0.0 * even, viscosity, pressure_viscosity, modulus
 
 
 def _rib(
