@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
@@ -10,6 +12,7 @@ from lambda_core.domain.log_sentences import SOLVER, gathered
 from lambda_core.fitting.discrepancy import Place, Prediction, coordinates, predict, sizes_known_before
 from lambda_core.fitting.least_squares import Fit
 from lambda_core.fitting.problem import CaseProblem
+from lambda_core.fitting.shared_errors import LEAST_OWN
 from lambda_core.fitting.uncertainty import huber_weights
 
 
@@ -68,7 +71,8 @@ def predicted(
         alone, there_common = asked.parts(found.values)
         new = np.sqrt(own**2 + alone**2 + sum(part**2 for part in there_common.values()))
     known = [name for name in common if name in there_common]
-    shared_with = sum((np.outer(inflation * common[name], there_common[name]) for name in known), np.zeros(()))
+    alike = math.sqrt(1.0 - LEAST_OWN) * inflation  # as in the correlations of the fit
+    shared_with = sum((np.outer(alike * common[name], there_common[name]) for name in known), np.zeros(()))
     measured = found.data.values
     prediction = predict(
         found.parameters, found.values, measured, errors * inflation, at, there, new, found.shared, shared_with

@@ -19,7 +19,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.fitting.data import Data
 from lambda_core.fitting.uncertainty import huber_weights
 
-_LEAST_OWN = 1e-6  # share of a variance that belongs to a value alone: keeps the correlations below one
+LEAST_OWN = 1e-12  # share of a variance that belongs to a value alone: keeps the correlations below one
 _ITERATIONS = 20  # of weights that find outliers
 
 
@@ -70,7 +70,7 @@ class SharedErrors:
         for group in several:
             own, all_of = moved[group] / errors[group, None], common[group] / errors[group, None]
             is_one = place[group, None] == place[group]
-            matrix = (1.0 - _LEAST_OWN) * (is_one * (own @ own.T) + all_of @ all_of.T)
+            matrix = (1.0 - LEAST_OWN) * (is_one * (own @ own.T) + all_of @ all_of.T)
             np.fill_diagonal(matrix, 1.0)
             found.append(matrix)
         return cls(several, tuple(found))
@@ -154,7 +154,7 @@ def _outliers_last(residuals: FloatArray, common: FloatArray) -> NDArray[np.int6
     are Huber's estimate with their size known beforehand, by iterated weights (Holland and Welsch 1977, Commun. Stat. A
     6, 813).
     """
-    own = np.sqrt(np.maximum(1.0 - np.sum(common**2, axis=1), _LEAST_OWN))
+    own = np.sqrt(np.maximum(1.0 - np.sum(common**2, axis=1), LEAST_OWN))
     slopes, left = common / own[:, None], np.broadcast_to(residuals, own.shape) / own
     found = np.zeros(common.shape[1])
     for _ in range(_ITERATIONS):

@@ -169,6 +169,21 @@ def test_predictions_know_the_offset_of_the_same_sensor() -> None:
 
 
 @pytest.mark.usefixtures("closed_law")
+@pytest.mark.parametrize("common", ["1e4", "1e7"])
+def test_an_offset_of_any_size_leaves_its_differences(common: str) -> None:
+    """Fit torques whose offset is 46 and unknown.
+
+    From 1e4 times the errors on nothing was determined, and bands of the same points were narrower than their errors.
+    """
+    head, lines = f"{HEAD},{COMMON}", [f"{n},{946 + 0.1 * n},0.5,{common}" for n in range(500, 2500, 250)]
+    found = _fit(head, *lines, asked=(head, f"1500,{946 + 150},0.5,{common}"))
+    low, high = found.predictions[0].band
+    assert found.chi_square_per_degree == pytest.approx(0.0, abs=1e-3)
+    assert 2 * 1.9 * 5.0 < high - low < 2 * 2.5 * 5.5
+    assert found.predictions[0].is_inside
+
+
+@pytest.mark.usefixtures("closed_law")
 def test_an_outlier_is_named_that_is_smaller_than_the_offset() -> None:
     """Make one torque wrong by 60 N mm, offset 50.
 
