@@ -40,6 +40,7 @@ from lambda_core.model.bodies.loads import all_loads, loads_on_parts, refuse_far
 from lambda_core.model.bodies.locations import Places, places
 from lambda_core.model.bodies.mounting import mounted, refuse_motion
 from lambda_core.model.bodies.reduced_shaft import reduced_shaft
+from lambda_core.model.bodies.resolve_bodies import hollow_cylinder
 from lambda_core.model.bodies.resolve_materials import body_material
 from lambda_core.model.bodies.rigid_bodies import (
     connections,
@@ -415,8 +416,8 @@ def _discs(case: MachineCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc
             material = body_material(given.material, f"discs.{name}.material", catalogue, ledger)
             outer, inner = given.diameter**2, given.bore**2
             mass = 0.25 * math.pi * (outer - inner) * given.width * (material.density if material else 0.0)
-            polar = mass * (outer + inner) / 8.0
-            transverse = 0.5 * polar + mass * given.width**2 / 12.0
+            cylinder = hollow_cylinder(mass, 0.5 * given.bore, 0.5 * given.diameter, given.width)
+            polar, transverse = cylinder.polar, cylinder.transverse
         if given.polar_inertia is not None:
             polar, transverse = given.polar_inertia, 0.5 * given.polar_inertia
         if given.transverse_inertia is not None:

@@ -128,6 +128,7 @@ def test_a_circuit_without_a_source_names_the_one_that_it_takes() -> None:
 
     class Bearing:
         contexts: tuple[Any, ...] = ()
+        full_complement = False
 
         def __init__(self, options: Electric) -> None:
             film = options.film.model_copy(update={"ball_permittivity": 8.0})

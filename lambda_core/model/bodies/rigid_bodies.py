@@ -17,6 +17,7 @@ from lambda_core.domain.units import from_si, show
 from lambda_core.formulas.elastic.beam import NODE
 from lambda_core.model.bearing_model import ELEMENT_PREFIX, ChosenLaw, TimeFunction
 from lambda_core.model.bodies.locations import SUPPORT, Places
+from lambda_core.model.bodies.resolve_bodies import hollow_cylinder
 from lambda_core.model.bodies.resolve_materials import body_material
 from lambda_core.model.laws.resolve_laws import ModelSource
 from lambda_core.model.laws.resolve_links import by_laws
@@ -57,9 +58,9 @@ def _rigid(name: str, given: MachineBody, catalogue: Catalogue, ledger: Ledger) 
         material = body_material(given.material, f"bodies.{name}.material", catalogue, ledger)
         density = material.density if material else 0.0
         if given.diameter is not None:
-            squares = given.diameter**2 + given.bore**2
             mass = density * 0.25 * math.pi * (given.diameter**2 - given.bore**2) * given.length
-            polar, transverse = mass * squares / 8.0, mass * (squares / 16.0 + given.length**2 / 12.0)
+            cylinder = hollow_cylinder(mass, 0.5 * given.bore, 0.5 * given.diameter, given.length)
+            polar, transverse = cylinder.polar, cylinder.transverse
             extent = (given.length, given.diameter, given.diameter)
         elif given.width is not None and given.height is not None:
             mass = density * given.length * given.width * given.height
