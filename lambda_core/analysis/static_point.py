@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from lambda_core.analysis.electric.contacts import equilibria
 from lambda_core.analysis.electric.current_numbers import PHASES, CurrentNumbers, static_numbers
 from lambda_core.analysis.rating.engineering import rating_of
 from lambda_core.discovery.api import registry
@@ -21,7 +22,7 @@ from lambda_core.model.roller_case import rollers_at_rest
 from lambda_core.results.quasistatic import BearingStatics, QuasiStatic, quasistatic_of
 from lambda_core.results.roller_quasistatic import roller_answer, solve_rollers
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.near_equilibrium import solve_or_roll
 
 if TYPE_CHECKING:
     from lambda_core.analysis.rotor.machine_equilibrium import MachineEquilibrium
@@ -227,13 +228,12 @@ class AlonePoint(StaticPoint):
     @cached_property
     def found(self) -> Equilibrium:
         """Its equilibrium."""
-        return self._known or solve(self.model, self._kernels, self._announce)
+        return self._known or solve_or_roll(self.model, self._kernels, self._announce)
 
     @cached_property
     def circuit(self) -> Mapping[str, CurrentNumbers]:
         """Bearing currents on quasi-static films."""
-        others = [solve(self.model, self._kernels, phase=k / PHASES) for k in range(1, PHASES)]
-        return static_numbers(self.model, [[self.found, *others]])
+        return static_numbers(self.model, [equilibria(self.model, PHASES, kernels=self._kernels)])
 
     @property
     def speed_rpm(self) -> float:

@@ -10,9 +10,11 @@ import pytest
 
 from lambda_core import api
 from lambda_core.analysis.electric.contacts import contacts_of_equilibria, equilibria
+from lambda_core.analysis.static_point import static_point
 from lambda_core.domain.errors import EquilibriumError
 from lambda_core.solver.drivers import equilibrium
 from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.studies.measures import static_film
 
 CASE = {
     "name": "nj",
@@ -62,3 +64,15 @@ def test_balls_without_a_steady_motion_stay_refused(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("lambda_core.solver.drivers.viscosity_continuation._WARMER", ())
     with pytest.raises(EquilibriumError, match="no quasi-static equilibrium with friction"):
         equilibria(api.check("6208-axial-1300"), 1)
+
+
+@pytest.mark.usefixtures("short_search")
+def test_point_of_a_study_has_the_films_of_rolling() -> None:
+    """Read currents and films as maps and studies do."""
+    point = static_point(api.check(CASE, ["electric.duration=2 ms"]))
+    (numbers,) = point.circuit.values()
+    assert numbers.discharges_per_s is not None
+    own = point.bearing("")
+    found = point.answer
+    assert found.rollers is not None
+    assert static_film(own) == pytest.approx(found.rollers.min_film_um, rel=0.01)

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from lambda_core.analysis.electric.circuit_integrator import Films
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import EquilibriumError, UsageError
-from lambda_core.domain.time_limit import check_time
+from lambda_core.domain.errors import UsageError
 from lambda_core.formulas.gap_capacitance import VACUUM_PERMITTIVITY
 
 if TYPE_CHECKING:
@@ -207,16 +206,15 @@ def equilibria(
     """
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.solver.drivers.near_equilibrium import solve_or_roll
 
     kernels = kernels or Kernels(model, announce)
-    of_balls = model.rollers is None
-    try:
-        return [solve(model, kernels, announce, by_warmer_oil=of_balls, phase=k / phases) for k in range(phases)]
-    except EquilibriumError:
-        if of_balls:
-            raise
-    check_time(f"{model.name}: the search for the equilibrium")
-    return [solve(model, kernels, with_friction=False, phase=k / phases) for k in range(phases)]
+    found: list[Equilibrium] = []
+    for k in range(phases):
+        found.append(solve_or_roll(model, kernels, announce, phase=k / phases))
+        if not found[-1].converged:
+            return [solve(model, kernels, with_friction=False, phase=k / phases) for k in range(phases)]
+    return found
 
 
 def spins(model: BearingModel) -> tuple[float, float]:

@@ -248,6 +248,8 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
         found.append("seals are left out")
     if options.cage is None and not bearing.full_complement:
         found.append("the cage does not conduct")
+    if bearing.of_lines:
+        found.append("at quasi-static points rollers roll where no steady motion with friction is found")
     found += assumed(bearing.laws)
     found.append(
         "circulating currents, from a voltage along the shaft through two bearings and the frame, are not modelled"

@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import SPIN
-from lambda_core.domain.errors import SolverError
+from lambda_core.domain.errors import EquilibriumError, SolverError
+from lambda_core.domain.time_limit import is_late
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame
 from lambda_core.model.laws.time_functions import initial
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import Core, core
-from lambda_core.solver.drivers.compiled_laws import Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.equilibrium import (
     Equilibrium,
     contact_channels,
@@ -126,6 +127,28 @@ def solve_near(
     if are_balls and (context.driven != near.driven).any():
         return solve(model, kernels, by_warmer_oil=by_warmer_oil, phase=near.phase)
     return solution(context, state, contact_channels(compiled, context, state), report, phase=near.phase)
+
+
+def solve_or_roll(
+    model: BearingModel, kernels: Kernels | None = None, announce: Announce = None, *, phase: float = 0.0
+) -> Equilibrium:
+    """Find an equilibrium, or rollers that roll.
+
+    Where no steady motion of rollers is found they roll under the same loads, and the equilibrium is not `converged`;
+    the way through warmer oil, which takes a minute, is left out.
+
+    Raises
+    ------
+    SolverError
+        As :func:`solve`; of rollers only where their loads have no equilibrium.
+    """
+    of_balls = model.rollers is None
+    try:
+        return solve(model, kernels, announce, by_warmer_oil=of_balls, phase=phase)
+    except EquilibriumError:
+        if of_balls or is_late():
+            raise
+    return solve(model, kernels, announce, with_friction=False, phase=phase)
 
 
 def continue_at_speed(model: BearingModel, near: Equilibrium, kernels: Kernels | None = None) -> Equilibrium:
