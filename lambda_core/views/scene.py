@@ -5,6 +5,7 @@ What animations are drawn from, whatever draws them. Inertial frame, SI; see doc
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +13,40 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class RollerShape:
+    """Length and angles of rollers.
+
+    Attributes
+    ----------
+    length : float
+        [m]
+    axis : float
+        Lean of their axes to that of the bearing, towards it along +x [rad]; zero of cylinders, as all angles.
+    inner, outer : float
+        The same of the raceways [rad].
+    """
+
+    length: float
+    axis: float
+    inner: float
+    outer: float
+
+    @property
+    def half(self) -> float:
+        """Half of their cone angle [rad]."""
+        return self.outer - self.axis
+
+    def raceway(self, ring: str, middle: float, radius: float, x: FloatArray) -> FloatArray:
+        """Return the raceway's radii at places along the bearing [m].
+
+        It is a cone without ribs, `middle` its radius where axes of rollers of `radius` do not lean [m].
+        """
+        side, lean = (-1.0, self.inner) if ring == "inner" else (1.0, self.outer)
+        touched = middle - side * radius * (1.0 - math.cos(self.axis))
+        return np.asarray(touched - (x - side * radius * math.sin(self.axis)) * math.tan(lean))
 
 
 @dataclass(frozen=True)
@@ -48,6 +83,8 @@ class Scene:
         [rad]
     pocket_force : float64[:, :, :], shape (frames, balls, 3)
         Force of the cage on each ball, x, y, z [N].
+    rollers : RollerShape, optional
+        Of rollers; None of balls.
     """
 
     title: str
@@ -65,6 +102,12 @@ class Scene:
     load: FloatArray
     contact_angle: FloatArray
     pocket_force: FloatArray
+    rollers: RollerShape | None = None
+
+    @property
+    def element(self) -> str:
+        """Name of a rolling element."""
+        return "ball" if self.rollers is None else "roller"
 
     @property
     def frames(self) -> int:

@@ -5,20 +5,24 @@ Loads along their contacts, angles of their axes, and ribs, against mechanics.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.channels import RIBS
 from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.export.report.gallery import data_of
+from lambda_core.export.report.run_scene import _rotations, scene_of
 from lambda_core.model.roller_case import roller_model
 from lambda_core.solver.drivers.line_field import line_field
 from lambda_core.views.method import NotApplicable
+from lambda_core.views.scene import RollerShape
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -42,6 +46,34 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Result:
 
 def show(run: Any, name: str, **options: Any) -> Any:
     return data_of(registry().view(name), run, options)
+
+
+def test_rollers_of_an_animation_roll(run: Result) -> None:
+    """Turn cylinders as their spin does, between both raceways.
+
+    They were balls in grooves.
+    """
+    scene = scene_of(run, start=None, turns=0.02, frames=5)
+    assert scene.element == "roller"
+    assert scene.rollers is not None
+    assert scene.rollers.length == pytest.approx(11e-3)
+    turns = _rotations(run["time"], run["ball_azimuth"], run["ball_spin"], scene.time)
+    now, then = (Rotation.from_quat(scene.ball_rotation[k]) for k in (-1, 0))
+    own, before = (Rotation.from_quat(turns[k]) for k in (-1, 0))
+    apart = (now * then.inv() * (own * before.inv()).inv()).magnitude()
+    assert apart.max() < 2e-3  # tilt and skew
+    assert (own * before.inv()).magnitude().min() > 0.05
+
+
+def test_cones_touch_raceways_on_their_length() -> None:
+    shape = RollerShape(22.7e-3, *(0.5 * (0.2 + 0.27), 0.2, 0.27))
+    pitch, radius = 54e-3, 8.5e-3
+    for ring, side in (("inner", -1.0), ("outer", 1.0)):
+        along = np.linspace(-0.5, 0.5, 5) * shape.length
+        line = np.stack([along, side * (radius - along * math.tan(shape.half)), 0.0 * along], axis=1)
+        leaning = Rotation.from_euler("z", -shape.axis).apply(line)
+        found = shape.raceway(ring, pitch + side * radius, radius, leaning[:, 0])
+        np.testing.assert_allclose(found, pitch + leaning[:, 1], atol=1e-9)
 
 
 @pytest.mark.parametrize("ring", ["inner", "outer"])

@@ -136,6 +136,8 @@ def _rings(file: _File, scene: Scene, time: int) -> None:
     x = np.linspace(-half, half, _ALONG)
     for body, name, far in ((0, "inner", "bore_diameter"), (1, "outer", "outside_diameter")):
         profile = np.array([shapes[body](float(place)) for place in x])
+        if scene.rollers is not None:
+            profile = scene.rollers.raceway(name, 0.5 * size[f"race_diameter_{name}"], groove, x)
         back = 0.5 * size[far]
         outline = np.array([(-half, back), *zip(x, profile, strict=True), (half, back)])
         mesh = file.mesh(f"{name} ring", _turned(outline), _STEEL, _GLASS)
@@ -175,11 +177,17 @@ def _cage(file: _File, scene: Scene, time: int) -> None:
 
 def _balls(file: _File, scene: Scene, time: int) -> None:
     radius = 0.5 * scene.geometry["ball_diameter"]
-    mesh, spot = file.mesh("ball", _sphere(radius), _STEEL), file.mesh("spot", _sphere(0.12 * radius), _DARK)
+    shape, across, away = _sphere(radius), 0.3 * radius, 0.93 * radius
+    if scene.rollers is not None:
+        end, taper = 0.5 * scene.rollers.length, math.tan(scene.rollers.half)
+        small, large = radius - end * taper, radius + end * taper
+        shape, across = _turned(np.array([(-end, 0.0), (-end, large), (end, small), (end, 0.0)])), end
+        away = 0.6 * small
+    mesh, spot = file.mesh(scene.element, shape, _STEEL), file.mesh("spot", _sphere(0.12 * radius), _DARK)
     for ball in range(scene.load.shape[1]):
-        node = file.node(f"ball {ball + 1}", 0, mesh=mesh)
+        node = file.node(f"{scene.element} {ball + 1}", 0, mesh=mesh)
         for side in (-1.0, 1.0):
-            file.node("spot", node, mesh=spot, translation=[0.3 * radius, 0.0, side * 0.93 * radius])
+            file.node("spot", node, mesh=spot, translation=[across, 0.0, side * away])
         file.move(node, "translation", time, scene.ball_position[:, ball])
         file.move(node, "rotation", time, _continuous(scene.ball_rotation[:, ball]))
 
@@ -197,7 +205,7 @@ def _loads(file: _File, scene: Scene, time: int) -> None:
             force = vectors[:, ball, ring]
             size = np.linalg.norm(force, axis=1)
             along = np.divide(force, size[:, None], out=np.zeros_like(force), where=size[:, None] > 0.0)
-            node = file.node(f"load of ball {ball + 1} on the {name} ring", 0, mesh=mesh)
+            node = file.node(f"load of {scene.element} {ball + 1} on the {name} ring", 0, mesh=mesh)
             file.move(node, "translation", time, scene.ball_position[:, ball] + radius * along)
             file.move(node, "rotation", time, _continuous(_from_x(along)))
             file.move(node, "scale", time, np.repeat(size[:, None] / most, 3, axis=1))

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
-from lambda_core.views.scene import Scene
+from lambda_core.elements.roller.rib import tapered_angles
+from lambda_core.views.scene import RollerShape, Scene
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -44,7 +46,8 @@ def scene_of(run: Result, *, start: float | None, turns: float, frames: int) -> 
     azimuth = _at(times, run["ball_azimuth"], at)
     axial, radius = _at(times, run["ball_axial"], at), _at(times, run["ball_radius"], at)
     y, z = np.cos(azimuth), np.sin(azimuth)
-    pocket = _at(times, run["pocket_force"], at)
+    pocket, rollers = _at(times, run["pocket_force"], at), _shape(model)
+    turned = run["ball_azimuth"], run["ball_spin"], at
     along_y = pocket[..., 1] * y - pocket[..., 2] * z
     along_z = pocket[..., 1] * z + pocket[..., 2] * y
     return Scene(
@@ -59,11 +62,24 @@ def scene_of(run: Result, *, start: float | None, turns: float, frames: int) -> 
         body_angle=_at(times, run["body_spin_angle"], at),
         ball_position=np.stack([axial, radius * y, radius * z], axis=-1),
         ball_azimuth=azimuth,
-        ball_rotation=_rotations(times, run["ball_azimuth"], run["ball_spin"], at),
+        ball_rotation=_rotations(times, *turned) if rollers is None else _of_rollers(times, *turned, rollers.axis),
         load=_at(times, run["load"], at),
         contact_angle=_at(times, run["contact_angle"], at),
         pocket_force=np.stack([pocket[..., 0], along_y, along_z], axis=-1),
+        rollers=rollers,
     )
+
+
+def _shape(model: Mapping[str, Any]) -> RollerShape | None:
+    """Return the shape of a model's rollers; None of balls."""
+    found = model.get("rollers")
+    if found is None:
+        return None
+    outer, inner = float(found["contact_angle"]), 0.0
+    if outer > 0.0:
+        inner = tapered_angles(found["diameter"], found["pitch_diameter"], outer).inner
+    inner, outer = inner * found["faces"], outer * found["faces"]
+    return RollerShape(float(found["length"]), 0.5 * (inner + outer), inner, outer)
 
 
 def _interval(
@@ -96,6 +112,22 @@ def _play(cage: dict[str, object]) -> float:
     """
     name = "pocket_clearance" if cage["guidance"] == "ball" else "land_clearance"
     return 0.5 * float(str(cage[name]))
+
+
+def _of_rollers(times: FloatArray, azimuth: FloatArray, spin: FloatArray, at: FloatArray, axis: float) -> FloatArray:
+    """Return the orientation of each roller at moments.
+
+    The shape is that of :func:`_rotations`. A roller leans by the angle of its axis and turns about it; its tilt and
+    skew of milliradians are left out, which nobody would see.
+    """
+    from scipy.spatial.transform import Rotation
+
+    own = spin[..., 0] - math.cos(axis) * np.gradient(azimuth, times, axis=0)
+    steps = 0.5 * (own[1:] + own[:-1]) * np.diff(times)[:, None]
+    turned = _at(times, np.concatenate([np.zeros_like(own[:1]), np.cumsum(steps, axis=0)]), at)
+    round_about = Rotation.from_euler("x", _at(times, azimuth, at).reshape(-1, 1))
+    found = round_about * Rotation.from_euler("z", -axis) * Rotation.from_euler("x", turned.reshape(-1, 1))
+    return np.asarray(found.as_quat().reshape(*turned.shape, 4))
 
 
 def _rotations(times: FloatArray, azimuth: FloatArray, spin: FloatArray, at: FloatArray) -> FloatArray:

@@ -138,7 +138,7 @@ def _balls(axes: Any, scene: Scene, ball: float) -> Any:
     axes.add_collection(balls)
     spots = axes.scatter([], [], s=26, facecolor="white", edgecolor=INK, linewidth=0.8, zorder=5)
     bar = axes.figure.colorbar(balls, cax=axes.inset_axes((0.30, 0.485, 0.40, 0.03)), orientation="horizontal")
-    bar.set_label("largest load of the ball [kN]")
+    bar.set_label(f"largest load of the {scene.element} [kN]")
     body = np.array([[0.35, 0.0, _SPOT], [0.35, 0.0, -_SPOT]])  # of the ball's radius, towards the viewer
 
     def move(frame: int) -> None:
@@ -184,8 +184,8 @@ def _vectors(axes: Any, scene: Scene, races: list[float], ball: float) -> Any:
     ]
     for line in lines:
         axes.add_collection(line)
-    names = [f"ball on inner ring, radial part, longest {most:.3g} kN", "ball on outer ring"]
-    names += [f"cage on ball, longest {hardest:.3g} N"] if scene.has_cage and hardest > 0.0 else []
+    names = [f"{scene.element} on inner ring, radial part, longest {most:.3g} kN", f"{scene.element} on outer ring"]
+    names += [f"cage on {scene.element}, longest {hardest:.3g} N"] if scene.has_cage and hardest > 0.0 else []
     axes.figure.legend(heads[: len(names)], names, loc="lower left", ncols=3, fontsize=10, columnspacing=1.2)
 
     def move(frame: int) -> None:
@@ -241,7 +241,7 @@ def _loads(axes: Any, scene: Scene) -> Any:
     axes.set_xticks(range(0, 361, 90))
     axes.set_ylim(0.0, 1.1 * float(load.max()) or 1.0)
     axes.set_xlabel("azimuth [deg]")
-    axes.set_ylabel("ball load [kN]")
+    axes.set_ylabel(f"{scene.element} load [kN]")
     axes.legend(loc="upper left", ncols=2, bbox_to_anchor=(0.0, 1.22), borderaxespad=0.0, handlelength=1.2)
 
     def move(frame: int) -> None:
