@@ -75,8 +75,8 @@ def quasistatic(
 
     try:
         model = ready(source, overrides, announce, is_static=True)
-    except CaseError:  # rollers are at rest also under loads with which they do not run
-        if bearing is not None or (rollers := ready_rollers(source, overrides, announce)) is None:
+    except CaseError as refused:  # rollers are at rest also under loads with which they do not run
+        if bearing is not None or (rollers := ready_rollers(source, overrides, announce, refused=refused)) is None:
             raise
         return roller_quasistatic(rollers[0])
     if bearing is not None:

@@ -71,8 +71,8 @@ def compared_bearing(
 
     try:
         model = ready(source, overrides, announce, is_static=True)
-    except CaseError:  # as for an operating point
-        if bearing is not None or (found := ready_rollers(source, overrides, announce)) is None:
+    except CaseError as refused:  # as for an operating point
+        if bearing is not None or (found := ready_rollers(source, overrides, announce, refused=refused)) is None:
             raise
         return _of_rollers("", found[0], solve_rollers(found[0]), contamination)
     number = bearing_number(model, bearing)

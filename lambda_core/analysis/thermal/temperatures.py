@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from lambda_core.case.case_io import toml_tables
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.lists import listed
 from lambda_core.model.api import check
@@ -15,10 +16,14 @@ if TYPE_CHECKING:
 
     from lambda_core.analysis.thermal.feedback import Loop, Steady
     from lambda_core.case.case_io import Source
+    from lambda_core.domain.errors import CaseError
     from lambda_core.model.bearing_model import BearingModel
     from lambda_core.model.machine_model import MachineModel
     from lambda_core.model.roller_case import RollerModel
     from lambda_core.results.reader import Result
+
+# A locked ring takes any load at rest; of a designation rollers at rest say more.
+_AT_REST = {"bearing.designation", *(f"bodies.inner_ring.{name}" for name in POSE)}
 
 
 def loop_of(
@@ -140,11 +145,13 @@ def ready_rollers(
     source: Source | BearingModel | MachineModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
+    *,
+    refused: CaseError | None = None,
 ) -> tuple[RollerModel, BearingModel | None] | None:
     """Return the roller bearing of a case.
 
     It has its own temperatures where the case wants them computed; then also return its model with what was found.
-    None where the source is no case of one, or a resolved model.
+    None where the source is no case of one, or a resolved model, or where what is `refused` in motion is so at rest.
 
     Raises
     ------
@@ -154,6 +161,8 @@ def ready_rollers(
     from lambda_core.case.case_io import bearing_case
     from lambda_core.model.roller_case import roller_model, rollers_at_rest
 
+    if refused is not None and any(problem.where not in _AT_REST for problem in refused.problems):
+        return None
     rollers = roller_model(source, overrides)  # type: ignore[arg-type]
     if rollers is None or bearing_case(source, overrides).operation.temperatures != "computed":  # type: ignore[arg-type]
         return None if rollers is None else (rollers, None)
