@@ -183,8 +183,9 @@ class SqlCatalogue:
         """
         if maker is None:
             return []
-        query = "SELECT designation FROM bearing WHERE maker = ? COLLATE NOCASE"
-        return [row.designation for row in self._rows(query, maker.strip())]
+        query = "SELECT designation FROM {} WHERE maker = ? COLLATE NOCASE"
+        tables = ("bearing", "roller_design")
+        return [row.designation for table in tables for row in self._rows(query.format(table), maker.strip())]
 
     def _bearing_rows(self, found: Sequence[Bearing]) -> list[BearingRow]:
         keys = [(row.designation, row.maker) for row in found]

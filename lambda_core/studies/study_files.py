@@ -9,7 +9,7 @@ from importlib import resources
 from pathlib import Path
 
 from lambda_core.case.case_writer import save_text
-from lambda_core.domain.errors import CaseError, UsageError, nearest
+from lambda_core.domain.errors import CaseError, UsageError, unknown_name
 from lambda_core.domain.files import check_new
 from lambda_core.studies.definition import parse_study
 
@@ -75,8 +75,8 @@ def init_study(
     Raises
     ------
     UsageError
-        When the file exists, cannot be written, there is no such case or study to start from, or the study is one of
-        bearings and the case a machine.
+        When the file exists, cannot be written, there is no such case or study to start from, or one of both is of one
+        bearing and the other of a machine.
     CaseError
         When `name` cannot be a study's name, or the case is not TOML.
     """
@@ -85,10 +85,11 @@ def init_study(
     of_machine = case is not None and _is_machine(case, target.parent)
     chosen = start or (name if name in texts else _OF_MACHINES if of_machine else _USUAL)
     if chosen not in texts:
-        known = ", ".join(nearest(chosen, texts) or texts)
-        raise UsageError(f'there is no study "{chosen}" to start from; there are: {known}')
+        raise UsageError(unknown_name("study to start from", chosen, list(texts)))
     if of_machine and chosen != _OF_MACHINES:
         raise UsageError(f"{chosen} is a study of one bearing, and {case} is a machine: start from {_OF_MACHINES}")
+    if case is not None and not of_machine and chosen == _OF_MACHINES:
+        raise UsageError(f"{chosen} is a study of machines, and {case} is one bearing: start from {_USUAL}")
     text = re.sub(rf"\b{re.escape(chosen)}\b", name, texts[chosen])
     if case is not None:
         text = re.sub(r"^case = .*$", lambda _: f"case = {_quoted(case)}", text, count=1, flags=re.M)

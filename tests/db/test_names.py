@@ -28,6 +28,7 @@ def test_one_maker_needs_no_name(catalogue: SqlCatalogue) -> None:
         ("7208B", "SKF", '"SKF" is not a maker of 7208B in the catalogue; makers: NSK; SKF has 7208BE, '),
         ("FAG 7208-B-XL-TVP", None, "available: 7208A, 7208B, 7208BE, 7208C"),
         ("6209B", "NSK", '"6209B" is not a known bearing; nearest: 6209, '),
+        ("NU 2O8", "SKF", '"NU 2O8" is not a known bearing; nearest: NU 208, '),
         ("6208'; DROP TABLE bearing; --", None, "is not a known bearing"),
         ("", None, "is not a known bearing"),
         ("SKF 22216 EK", None, '"SKF 22216 EK" is a spherical roller bearing, a kind that is not simulated; nearest'),

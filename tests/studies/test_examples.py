@@ -55,13 +55,17 @@ def test_a_machine_starts_from_a_study_of_machines(template: str, tmp_path: Path
     assert api.study_check(path, workers=2).points == 60
     with pytest.raises(api.UsageError, match=r"box\.toml is a machine: start from machine-map"):
         api.init_study("two", "what-decides", tmp_path / "two.toml", case="box.toml")
+    with pytest.raises(api.UsageError, match="machine-map is a study of machines, and 6208-axial-1300 is one bearing"):
+        api.init_study("two", "machine-map", tmp_path / "two.toml", case="6208-axial-1300")
     with pytest.raises(api.UsageError, match="neither a file nor a built-in case"):
         api.init_study("two", path=tmp_path / "two.toml", case="bax.toml")
 
 
 def test_what_cannot_start_a_study_is_told(tmp_path: Path) -> None:
     target = tmp_path / "mine.toml"
-    with pytest.raises(api.UsageError, match='no study "friction-mop" to start from; there are: friction-map'):
+    with pytest.raises(
+        api.UsageError, match='"friction-mop" is not a known study to start from; nearest: friction-map'
+    ):
         api.init_study("mine", "friction-mop", target)
     with pytest.raises(api.CaseError, match="name"):
         api.init_study("a b", path=target)
