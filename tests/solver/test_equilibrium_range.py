@@ -18,6 +18,7 @@ from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.model.checking import check_bearing
+from lambda_core.solver.arrays.bundle import elements_in
 from lambda_core.solver.drivers.equilibrium import continue_static, solve
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.viscosity_continuation import StaticReport, by_viscosity_continuation
@@ -214,6 +215,30 @@ def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pyte
     monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.by_viscosity_continuation", lambda *_: None)
     with pytest.raises(SolverError, match=r"none with friction; .*the oil at -55 degC is outside"):
         solve(api.check("6319-cp10-1500", ["lubricant.temperature=-55 degC"]))
+
+
+def test_balls_at_symmetrical_places_are_found_from_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Find the motion of balls by way of other azimuths.
+
+    This bearing has none of its own with one ball lowest, and none by way of warmer oil. Whether the direct search
+    fails depends on last digits: here it is made to.
+    """
+    searches: list[bool] = []
+
+    def search(*arguments: Any, friction: bool, **options: Any) -> Any:
+        searches.append(friction)
+        if searches.count(True) == 1 and friction:
+            raise SolverError("none with friction")
+        return continue_static(*arguments, friction=friction, **options)
+
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.continue_static", search)
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.by_viscosity_continuation", lambda *_: None)
+    case = _point("61907", "NSK", 271.1, 246.1, 50.05, "arcanol-load460", 100.0)
+    found, between = (solve(api.check(case), phase=phase) for phase in (0.0, 0.5))
+    assert found.converged
+    lowest = elements_in(found.context.bundle, found.state)["azimuth"][0]
+    assert math.sin(lowest) == pytest.approx(-1.0)
+    assert np.sum(found.losses) == pytest.approx(np.sum(between.losses), rel=2e-3)
 
 
 def test_a_point_without_a_solution_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

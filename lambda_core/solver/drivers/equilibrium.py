@@ -36,6 +36,7 @@ from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_la
 from lambda_core.solver.drivers.fault_inputs import INPUTS
 from lambda_core.solver.drivers.first_state import first_frame, first_state, place_between, roll
 from lambda_core.solver.drivers.law_inputs import guides, times
+from lambda_core.solver.drivers.position_continuation import by_other_positions
 from lambda_core.solver.drivers.ring_values import are_ribs, contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import bearing_of_land
@@ -336,7 +337,7 @@ def _with_friction(
 ) -> StaticReport:
     """Find the friction's equilibrium, in place.
 
-    It starts from the equilibrium without friction and goes by way of warmer oil where needed.
+    It starts from the equilibrium without friction and goes by way of warmer oil, or of other azimuths, where needed.
 
     Where there is none, the message lists what lies beyond the limits of bearing, oil and laws.
     """
@@ -350,6 +351,8 @@ def _with_friction(
     except SolverError as error:
         is_worth_more = strict and by_warmer_oil and not (is_late() or _limitless(context))
         near = by_viscosity_continuation(context, start, found) if is_worth_more else None
+        if near is None and is_worth_more and not is_late():
+            near = by_other_positions(context, start, found)
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
             error.args = ("; ".join([str(error), *beyond]),)
