@@ -203,6 +203,8 @@ def test_a_study_has_a_page_too(tmp_path: Path) -> None:
         ],
     }
     api.study_run(study, tmp_path / "study", executor=Inline())
+    with pytest.raises(api.UsageError, match='is a study, whose numbers name their bearing: leave out bearing "left"'):
+        api.report(tmp_path / "study", bearing="left")
     text = api.report(tmp_path / "study", tmp_path / "study.html").read_text(encoding="utf-8")
     found = Page(text)
     assert "Torque <over> speed & load" in found.text  # escaped in the file

@@ -446,6 +446,8 @@ def subject_of(
             return [_begun(result(one, bearing)) for one in source], "results"
         source = source[0]
     if is_study(Path(source)):
+        if bearing is not None:
+            raise UsageError(f'{source} is a study, whose numbers name their bearing: leave out --bearing "{bearing}"')
         return table(Path(source)), "study"
     return _begun(result(source, bearing)), "result"
 
