@@ -105,14 +105,14 @@ def test_points_without_an_answer_are_named(
     """Name four points and count the others; exit code 5."""
     found = map_of(alone)
     assert "empty" not in found.text()
-    lost = {**dict.fromkeys(UNITS), "message": "no steady motion"}
+    lost = {**dict.fromkeys(UNITS), "message": "6208: 1 error\n  operation.speed        no steady motion"}
     points = [p.model_copy(update=lost) if k < 6 else p for k, p in enumerate(found.points)]
     changed = found.model_copy(update={"points": points})
     monkeypatch.setattr(api, "electric_map", lambda *args, **options: changed)
     assert main(["electric-map", CASE, "--quiet"]) == 5
     out, err = capsys.readouterr()
     assert out.count("no steady motion") == 4
-    assert "empty            500 1/min at 30 degC: no steady motion" in out
+    assert "empty            500 1/min at 30 degC: operation.speed no steady motion" in out
     assert "and 2 more: --out and --json name all" in out
     assert "6 of 10 points of the map have no answer" in err
 

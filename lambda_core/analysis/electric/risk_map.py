@@ -210,7 +210,11 @@ def map_text(found: RiskMap) -> str:
 def _reasons(found: RiskMap) -> list[str]:
     """Name the first points without an answer, and why."""
     empty = [point for point in found.points if point.message]
-    named = [f"{one.speed_rpm:.5g} 1/min at {one.temperature_degC:.4g} degC: {one.message}" for one in empty[:_NAMED]]
+    told = [" ".join(one.message.splitlines()[-1].split()) for one in empty[:_NAMED]]  # without a case's heading
+    named = [
+        f"{one.speed_rpm:.5g} 1/min at {one.temperature_degC:.4g} degC: {why}"
+        for one, why in zip(empty, told, strict=False)
+    ]
     return [*named, *([f"and {len(empty) - _NAMED} more: --out and --json name all"] if len(empty) > _NAMED else [])]
 
 
