@@ -70,7 +70,7 @@ def rollers_of(
     bearing, ledger, found = case.bearing, Ledger(place=place), None
     if bearing.designation is not None:
         found = ledger.ask("bearing.", lambda: roller_designation(catalogue, str(bearing.designation), bearing.maker))
-    if found is None and bearing.rollers is None:
+    if found is None and bearing.rollers is None and not ledger.problems:
         return None
     rollers = roller_geometry(case, found, catalogue, ledger)
     if place is str:

@@ -143,8 +143,9 @@ def test_a_speed_above_the_limiting_one_is_a_warning(
 def test_what_cannot_be(
     designation: str, axial: str, more: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["quasistatic", case(tmp_path, designation, axial, more)]) == 3
-    assert message in capsys.readouterr().err
+    for verb in ("check", "quasistatic"):
+        assert main([verb, case(tmp_path, designation, axial, more)]) == 3
+        assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     from lambda_core.model.roller_case import RollerModel
     from lambda_core.results.reader import Result
 
-# A locked ring takes any load at rest; of a designation rollers at rest say more.
-_AT_REST = {"bearing.designation", *(f"bodies.inner_ring.{name}" for name in POSE)}
+_AT_REST = {f"bodies.inner_ring.{name}" for name in POSE}  # what is locked takes any load there
 
 
 def loop_of(
