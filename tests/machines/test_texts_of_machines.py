@@ -122,22 +122,15 @@ def test_damping_is_shown_in_other_units_too() -> None:
 
 
 def test_a_circuit_without_a_source_names_the_one_that_it_takes() -> None:
-    from lambda_core.analysis.electric.circuit_bearing import electric_model
+    from lambda_core.analysis.electric.circuit_bearing import CircuitBearing, electric_model
     from lambda_core.analysis.electric.outcome import assumptions
     from lambda_core.case.electric import Electric, Sine
 
-    class Bearing:
-        contexts: tuple[Any, ...] = ()
-        full_complement = False
-
-        def __init__(self, options: Electric) -> None:
-            film = options.film.model_copy(update={"ball_permittivity": 8.0})
-            self.options = options.model_copy(update={"film": film})
-            self.laws = electric_model(options, "case").laws
-
     def told(options: Electric) -> str:
-        bearing: Any = Bearing(options)
-        return " ".join(assumptions(bearing))
+        film = options.film.model_copy(update={"ball_permittivity": 8.0})
+        laws, insulated = electric_model(options, "case").laws, options.model_copy(update={"film": film})
+        nothing: Any = ()
+        return " ".join(assumptions(CircuitBearing("left", "case", insulated, laws, {}, nothing, 1e-7)))
 
     words = "the case names no source: two-level inverter, dc link 800 V"
     assert words in told(Electric())
