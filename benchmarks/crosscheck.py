@@ -50,8 +50,8 @@ reference resolves, a hundredth of the tolerance times 0.01 J over the energy. O
 radial load over 2 to 8 ms, 15 were more than 0.02 % off, at most 0.2 % (CVODE at the same tolerance 0.3 %), all within
 this bound; the states of four of them miss theirs. In every row the power is within 0.015 %. At the default
 tolerance of 1e-3 the states meet their bound. Those of the 6319 at 3000 1/min are near it, 8.1 here and 10.8 with
-earlier default laws (the test holds 15): the speed of its inner ring along the load follows a vibration at 970 Hz that
-hardly anything damps, which steps as long as those of oiled balls resolve less well. `agree` can be false there.
+earlier default laws (the test holds 15). Its inner ring vibrates along the load at 970 Hz. Hardly anything damps this
+vibration, and steps as long as those of oiled balls follow it less closely. `agree` can be false there.
 `solver.accuracy = "vibration"` is for what follows such vibrations. In units of the
 tolerance the distance grows as the tolerance shrinks, since the error of a method of second order falls with its 2/3
 power: to 20 at 1e-4 there. CVODE takes smaller steps for the same tolerance, more than twice as many calls there.

@@ -79,8 +79,20 @@ def _writable(target: str, advice: str = "") -> Iterator[None]:
     """Refuse to write where there is no room; UsageError."""
     try:
         yield
-    except sqlite3.OperationalError as error:
-        raise UsageError(f"cannot write {target}: {error}{advice}") from None
+    except (OSError, sqlite3.OperationalError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise UsageError(f"cannot write {target}: {why}{advice}") from None
+
+
+def _claim(path: Path) -> None:
+    """Make an empty manifest; of two processes one succeeds."""
+    try:
+        path.open("x").close()
+    except FileExistsError:
+        raise UsageError(
+            f"{path.parent} already holds a study: go on with it (lambda-bearing study resume {path.parent}), or name "
+            "another folder with --out"
+        ) from None
 
 
 class Manifest:
@@ -120,18 +132,10 @@ class Manifest:
 
         It is in `folder`, which is made if needed and must not hold a manifest yet.
         """
-        try:
+        path, target = folder / FILE, f"the study into {folder}"
+        with _writable(target):
             folder.mkdir(parents=True, exist_ok=True)
-            path = folder / FILE
-            if path.exists():
-                raise UsageError(
-                    f"{folder} already holds a study: go on with it (lambda-bearing study resume {folder}), or name "
-                    "another folder with --out"
-                )
-            (folder / "study.toml").write_text(study_toml, encoding="utf-8")
-            (folder / "case.toml").write_text(case_toml, encoding="utf-8")
-        except OSError as error:
-            raise UsageError(f"cannot write the study into {folder}: {error.strerror}") from None
+            _claim(path)
         values = {
             "version": str(VERSION),
             "study": json.dumps(study.model_dump(mode="json", exclude_unset=True)),
@@ -140,10 +144,13 @@ class Manifest:
         }
         columns = [(h.kind, h.name, h.unit, h.meaning) for h in headings]
         try:
-            with _writable(f"the study into {folder}"), closing(sqlite3.connect(path)) as database, database:
-                database.executescript(_SCHEMA)
-                database.executemany("INSERT INTO meta VALUES (?, ?)", values.items())
-                database.executemany("INSERT INTO columns (kind, name, unit, meaning) VALUES (?, ?, ?, ?)", columns)
+            with _writable(target):
+                (folder / "study.toml").write_text(study_toml, encoding="utf-8")
+                (folder / "case.toml").write_text(case_toml, encoding="utf-8")
+                with closing(sqlite3.connect(path)) as database, database:
+                    database.executescript(_SCHEMA)
+                    database.executemany("INSERT INTO meta VALUES (?, ?)", values.items())
+                    database.executemany("INSERT INTO columns (kind, name, unit, meaning) VALUES (?, ?, ?, ?)", columns)
         except UsageError:
             path.unlink(missing_ok=True)  # a part of a manifest would be taken for a study
             raise

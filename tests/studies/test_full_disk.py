@@ -59,6 +59,20 @@ def test_a_study_without_room_leaves_no_part_of_a_study(
     assert api.study_run(tmp_path / "study.toml", tmp_path / "two", executor=inline).done == 2
 
 
+def test_a_study_that_another_process_begins_is_left_alone(
+    write: Callable[..., Path], inline: Executor, tmp_path: Path
+) -> None:
+    """Refuse a manifest that another process has just made.
+
+    It is empty until that process writes it.
+    """
+    (tmp_path / "two").mkdir()
+    (tmp_path / "two" / FILE).touch()
+    with pytest.raises(UsageError, match="already holds a study"):
+        api.study_run(write(STUDY), tmp_path / "two", executor=inline)
+    assert [path.name for path in (tmp_path / "two").iterdir()] == [FILE]
+
+
 def test_a_study_whose_disk_fills_up_says_how_to_go_on(
     room: Callable[[int], None], write: Callable[..., Path], inline: Executor, tmp_path: Path
 ) -> None:

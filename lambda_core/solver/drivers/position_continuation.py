@@ -8,18 +8,15 @@ for (natural-parameter continuation: Allgower and Georg 1990, Numerical Continua
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.domain.time_limit import is_late
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.drivers.viscosity_continuation import StaticReport
+from lambda_core.solver.drivers.viscosity_continuation import Solve, StaticReport
 
 _APART = (0.1, -0.1, 0.2)  # where the way may begin, in pitches
-# Solves for the equilibrium from a state, in place, and returns its report.
-Solve = Callable[[SolverContext, FloatArray], StaticReport]
 
 
 def by_other_positions(
