@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from lambda_cli.options import JsonOption, Units, UnitsOption
-from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_cli.talk import ProgressOption, QuietOption, Style, json_text, talk
 
 
 def duty(
@@ -30,4 +30,4 @@ def duty(
 
     with talk(progress, quiet) as speaker:
         found = api.duty(file, announce=speaker.say)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
+    typer.echo(json_text(found.to_dict()) if as_json else found.text(units.system))

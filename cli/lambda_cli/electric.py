@@ -18,7 +18,7 @@ from lambda_cli.options import (
     UnitsOption,
     WorkersOption,
 )
-from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_cli.talk import ProgressOption, QuietOption, Style, json_text, talk
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_folder
 
@@ -69,7 +69,7 @@ def electric(
         found = api.electric(source, [*(changes or ()), *overrides], announce=speaker.say)
     if out is not None:
         api.write_discharges(found, out, overwrite=force)
-    typer.echo(found.outcome.model_dump_json(indent=2) if as_json else units.system.sentence(found.outcome.text()))
+    typer.echo(json_text(found.outcome.to_dict()) if as_json else units.system.sentence(found.outcome.text()))
 
 
 def film(

@@ -17,7 +17,7 @@ from lambda_cli.options import (
     Units,
     UnitsOption,
 )
-from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
+from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, json_text, talk
 from lambda_core.domain.files import check_folder
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def quasistatic(
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         found = api.quasistatic(case, changes or (), bearing=bearing, band=band is Bands.MODEL, announce=speaker.say)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
+    typer.echo(json_text(found.to_dict()) if as_json else found.text(columns(), units.system))
     if draw is not None:
         _draw(api.machine_pictures(found), draw, case, units, bearing)
 

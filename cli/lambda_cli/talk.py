@@ -9,6 +9,7 @@ import json
 import shutil
 import sys
 import time
+from collections.abc import Mapping
 from enum import StrEnum
 from types import TracebackType
 from typing import TYPE_CHECKING, Annotated, Any, Protocol
@@ -77,6 +78,16 @@ def columns() -> int | None:
     It is None for a file or a pipe.
     """
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """Return plain data as JSON.
+
+    What is not a number becomes null, as in every other answer.
+    """
+    from pydantic_core import to_json
+
+    return to_json(data, indent=2, inf_nan_mode="null").decode()
 
 
 class Silence:

@@ -27,7 +27,7 @@ from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.model_band import Banded, ModelBand
 from lambda_core.results.quantity import FLOATING, quantity, same_as, shown
 from lambda_core.results.rating import Rating, rated_verdict
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.record import INTERFACE, Record, by_bearing
 from lambda_core.results.ring_shape import RingShape, ring_shape
 from lambda_core.results.summary import capacitance_note, contact_list, merged_cage, span
 from lambda_core.results.verdict import Verdict
@@ -222,6 +222,16 @@ class QuasiStatic(BearingStatics, StaticAnswer):
     def ring_displacement_um(self) -> list[float]:
         """Displacement x, y, z of the inner ring [um]."""
         return self.inner_ring_displacement_um
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON.
+
+        The numbers of the bearing are in ``bearings``, by its name, as in a machine.
+        """
+        (name,) = self.bearings
+        around = ("headline", *StaticAnswer.model_fields)
+        life = None if self.rating is None else self.rating.reference_life_h
+        return by_bearing(self, name, around, ("friction_torque_Nmm", "friction_torque_Nmm_band"), system_life_h=life)
 
     def of_bearing(self, name: str | None = None) -> QuasiStatic:
         """Return the answer itself.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from typing import Any
+
 from pydantic import BaseModel, ConfigDict
 
 INTERFACE = 1
@@ -32,3 +35,28 @@ class Record(BaseModel):
         from html import escape
 
         return f"<pre>{escape(str(self))}</pre>"
+
+
+def by_bearing(
+    record: Record, name: str, around: Collection[str], totals: Collection[str], **more: Any
+) -> dict[str, Any]:
+    """Return plain data as those of a machine.
+
+    A program then reads one bearing and several in the same way.
+
+    Parameters
+    ----------
+    record : Record
+        Answer about one bearing.
+    name : str
+        Of the bearing, which has its own table in ``bearings``.
+    around : collection of str
+        Fields that stand outside that table.
+    totals : collection of str
+        Fields of the bearing that stand outside its table, too.
+    **more
+        Further numbers outside.
+    """
+    data = record.model_dump(mode="json")
+    outside = {key: data.pop(key) for key in around} | {key: data[key] for key in totals}
+    return outside | more | {"bearings": {name: data}}

@@ -33,7 +33,7 @@ from lambda_core.domain.units import Time
 from lambda_core.elements.roller.roller_life import LIFE_EXPONENT
 from lambda_core.results.averages import finite
 from lambda_core.results.machine_numbers import total
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.record import INTERFACE, Record, by_bearing
 from lambda_core.studies.job import solved_point
 from lambda_core.studies.load_spectrum import read_spectrum
 
@@ -108,6 +108,10 @@ class CycleSum(Record):
         """Lives [h] with what they are; the decisive one first."""
         raise NotImplementedError
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON."""
+        return self.model_dump(mode="json")
+
     def told(self) -> list[tuple[str, str]]:
         """Return all warnings, each with its phase."""
         return [
@@ -138,6 +142,16 @@ class DutyCycle(CycleSum):
     def bearings(self) -> Mapping[str, DutyCycle]:
         """This cycle by the name that results give the bearing."""
         return {ALONE: self}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON.
+
+        The cycle of the bearing is in ``bearings``, by its name, as in a machine.
+        """
+        (name,) = self.bearings
+        losses = ("mean_power_loss_W", "energy_loss_kJ", "energy_loss_kWh_per_year")
+        around = (*CycleSum.model_fields, "assumptions")
+        return by_bearing(self, name, around, losses, system_life_h=self.reference_life_h)
 
     @property
     def lives(self) -> list[tuple[float | None, str]]:

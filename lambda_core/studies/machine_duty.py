@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Any
 
 from pydantic import Field
 
@@ -63,10 +62,6 @@ class MachineDutyCycle(CycleSum):
             f"{number(self.energy_loss_kWh_per_year)} kWh in a year of cycles without a pause",
         ]
         return "\n".join([*lines, "", *closing_lines(self.told(), self.assumptions, units)])
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data, ready for JSON."""
-        return self.model_dump(mode="json")
 
     def __repr__(self) -> str:
         """Return cycle and system life."""

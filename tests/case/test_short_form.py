@@ -127,6 +127,28 @@ def test_what_a_machine_does_not_have_is_said() -> None:
     assert isinstance(api.check(long.tables), api.MachineModel)
 
 
+def test_a_program_reads_both_forms_alike(tmp_path: Path) -> None:
+    """Find each number of a bearing at the same place.
+
+    The bearing is alone, or in a machine.
+    """
+    long = api.long_form("6208-axial-1300", STRAIGHT).tables
+    file = api.init_case("long", "6208-axial-1300", tmp_path / "long.toml", as_machine=True)
+    circuit = ["electric.duration=1 ms"]
+    cycle = {"name": "day", "phases": [{"name": "all day", "time": "8 h"}]}
+    pairs = (
+        (api.quasistatic("6208-axial-1300", STRAIGHT), api.quasistatic(long)),
+        (api.electric("6208-axial-1300", circuit).outcome, api.electric(long, circuit).outcome),
+        (api.duty(cycle | {"case": "6208-axial-1300"}), api.duty(cycle | {"case": str(file)})),
+    )
+    for alone, among in ((one.to_dict(), other.to_dict()) for one, other in pairs):
+        assert alone["bearings"].keys() == among["bearings"].keys()
+        (one,), (other,) = alone["bearings"].values(), among["bearings"].values()
+        of_a_ring_alone = {"inner_ring_displacement_um", "inner_ring_tilt_mrad", "axial_play_um"}
+        assert one.keys() - of_a_ring_alone <= other.keys()
+        assert alone.keys() - {"headline"} <= among.keys()
+
+
 THERMAL = [
     "thermal.nodes.housing.heat=20 W",
     "thermal.nodes.outer_ring.start=30 degC",

@@ -44,7 +44,7 @@ def case(folder: Path, designation: str, axial: str = "0 N", more: str = "") -> 
 )
 def test_quasistatic(designation: str, axial: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["quasistatic", case(tmp_path, designation, axial), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json.loads(capsys.readouterr().out)["bearings"]["bearing"]
     assert found["friction_torque_Nmm"] == pytest.approx(sum(found["friction_breakdown_Nmm"].values()))
     assert found["loaded_elements"] >= 3
     assert found["rating"]["basic_life_h"] > 0.0
@@ -59,7 +59,7 @@ def test_lives_with_a_iso(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     """
     path = case(tmp_path, "NU 208")
     assert main(["quasistatic", path, "--json", "--set", "life.contamination=0.3"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json.loads(capsys.readouterr().out)["bearings"]["bearing"]
     film = 1.5859 - 1.2348 / found["rating"]["viscosity_ratio"] ** 0.071739
     expected = 0.1 * (1.0 - film * (0.3 * 6.7e3 / found["rating"]["equivalent_load_N"]) ** 0.4) ** -9.185
     assert found["rating"]["life_factor"] == pytest.approx(expected, rel=1e-6)
@@ -77,7 +77,7 @@ def test_a_iso_ends_where_its_formula_does(tmp_path: Path, capsys: pytest.Captur
     """
     slow = ["--set", 'operation.speed="5 rpm"', "--set", 'lubricant.temperature="100 degC"']
     assert main(["quasistatic", case(tmp_path, "NU 208"), "--json", *slow]) == 0
-    found = json.loads(capsys.readouterr().out)
+    found = json.loads(capsys.readouterr().out)["bearings"]["bearing"]
     assert found["rating"]["viscosity_ratio"] < 0.1
     assert found["rating"]["modified_life_h"] is None
     assert found["rating"]["basic_life_h"] > 0.0
@@ -101,7 +101,8 @@ def test_too_much_thrust_is_a_warning_and_not_within_limits(tmp_path: Path, caps
     assert "above the permissible" in out
     assert "NOT MET: axial load 229 % of 1 308 N" in out
     assert main(["quasistatic", case(tmp_path, "NJ 208", "1 kN"), "--json"]) == 0
-    margins = {margin["name"]: margin for margin in json.loads(capsys.readouterr().out)["verdict"]["margins"]}
+    verdict = json.loads(capsys.readouterr().out)["bearings"]["bearing"]["verdict"]
+    margins = {margin["name"]: margin for margin in verdict["margins"]}
     assert margins["axial load"]["met"]
     assert margins["axial load"]["limit"] == pytest.approx(1308.0, rel=1e-3)
 
@@ -114,9 +115,10 @@ def test_thrust_alone_has_no_radial_load(tmp_path: Path, capsys: pytest.CaptureF
     changes = ["--set", 'loads.radial="0 N"', "--set", "gravity.z=0 m/s2"]
     assert main(["quasistatic", case(tmp_path, "NJ 208", "500 N"), "--json", *changes]) == 0
     found = json.loads(capsys.readouterr().out)
+    own = found["bearings"]["bearing"]
     assert "radial 0 N, axial 500 N" in found["headline"]
-    assert found["rating"]["equivalent_load_N"] == 0.0
-    assert found["rating"]["static_safety"] is None
+    assert own["rating"]["equivalent_load_N"] == 0.0
+    assert own["rating"]["static_safety"] is None
 
 
 @pytest.mark.parametrize("verb", ["check", "quasistatic"])
@@ -418,7 +420,7 @@ def test_a_run_rates_rollers_as_rollers(
     monkeypatch.chdir(tmp_path)
     path = case(tmp_path, "SKF NU 208 ECP")
     assert main(["quasistatic", path, "--json"]) == 0
-    alone = json.loads(capsys.readouterr().out)["rating"]
+    alone = json.loads(capsys.readouterr().out)["bearings"]["bearing"]["rating"]
     main(["run", path, "--set", "solver.duration=2 ms"])
     capsys.readouterr()
     assert main(["show", "case.h5", "--json"]) in (0, 5)
@@ -464,7 +466,7 @@ def test_the_speed_of_the_outer_ring_counts_without_motion(tmp_path: Path, capsy
     for inner, outer in (("0 rpm", "3000 rpm"), ("3000 rpm", "3000 rpm"), ("1500 rpm", "-1500 rpm")):
         speeds = ("--set", f"operation.speed={inner}", "--set", f"bodies.outer_ring.spin.motion={outer}")
         assert main(["quasistatic", path, "--json", *speeds]) == 0
-        torque.append(json.loads(capsys.readouterr().out)["friction_torque_Nmm"])
+        torque.append(json.loads(capsys.readouterr().out)["bearings"]["bearing"]["friction_torque_Nmm"])
     assert torque[0] > 50.0
     assert torque[1] is None
     assert torque[2] == pytest.approx(torque[0], rel=0.2)
@@ -484,7 +486,7 @@ def test_the_weight_of_a_given_mass_loads_the_rollers(tmp_path: Path, capsys: py
         ("gravity.z=-10 m/s2",),
     ):
         assert main(["quasistatic", path, "--json", *(part for one in changes for part in ("--set", one))]) == 0
-        found.append(json.loads(capsys.readouterr().out))
+        found.append(json.loads(capsys.readouterr().out)["bearings"]["bearing"])
     assert found[0]["max_load_N"] == pytest.approx(found[1]["max_load_N"], rel=1e-9)
     weight = api.check(path).inner_ring.mass * 10.0
     assert found[3]["rating"]["equivalent_load_N"] - found[2]["rating"]["equivalent_load_N"] == pytest.approx(weight)
@@ -510,7 +512,7 @@ def test_a_load_that_no_ring_holds_has_no_equilibrium(tmp_path: Path, capsys: py
     assert main(["run", path, *free, "--out", str(tmp_path / "loose.h5")]) == 4  # the rings fell together
     assert "lock bodies.outer_ring.z" in capsys.readouterr().err
     assert main(["quasistatic", path, *free, "--set", "bodies.inner_ring.z=locked", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["max_load_N"] < 10.0  # of the centrifugal force
+    assert json.loads(capsys.readouterr().out)["bearings"]["bearing"]["max_load_N"] < 10.0  # of the centrifugal force
 
 
 def test_a_cup_that_tilts_is_a_cone_that_tilts(tmp_path: Path) -> None:

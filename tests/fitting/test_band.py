@@ -304,11 +304,11 @@ def test_the_command_prints_the_band_and_writes_it_as_json(capsys: pytest.Captur
     found = json.loads(capsys.readouterr().out)
     low, high = found["friction_torque_Nmm_band"]
     assert low < found["friction_torque_Nmm"] < high
-    assert len(found["min_film_um_band"]) == 2
+    assert len(found["bearings"]["bearing"]["min_film_um_band"]) == 2
     assert main(["quasistatic", "6319-cp10-500", "--json", "--band", "none", "-q"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["friction_torque_Nmm_band"] == []
-    assert found["model_band"] is None
+    assert found["bearings"]["bearing"]["model_band"] is None
 
 
 def test_a_run_keeps_its_band_in_the_file(tmp_path: Path) -> None:

@@ -143,7 +143,8 @@ def test_the_command_reads_a_case_next_to_the_file(
     monkeypatch.chdir(tmp_path.parent)
     assert main(["duty", str(file), "--json", "-q"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert (found["case"], found["phases"][0]["damage"]) == ("own", 1.0)
+    assert (found["case"], found["bearings"]["bearing"]["phases"][0]["damage"]) == ("own", 1.0)
+    assert found["system_life_h"] == found["bearings"]["bearing"]["reference_life_h"]
     assert main(["duty", str(file), "-q", "--units", "us"]) == 0
     shown = capsys.readouterr().out
     assert "P lbf" in shown

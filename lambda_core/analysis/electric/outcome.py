@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import Field
@@ -16,11 +16,12 @@ from lambda_core.analysis.electric.events import discharges_of, sector_shares
 from lambda_core.analysis.electric.voltage_sources import period_of
 from lambda_core.case.electric import Electric, Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import ALONE
 from lambda_core.domain.number_text import number
 from lambda_core.domain.wrapping import lines_under
 from lambda_core.model.settings.resolve_electric import assumed
 from lambda_core.results.answer import Answer
-from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.record import INTERFACE, Record, by_bearing
 from lambda_core.results.text import line
 
 if TYPE_CHECKING:
@@ -90,6 +91,15 @@ class Outcome(Answer):
     def text(self) -> str:
         """Return the lines for people."""
         return outcome_text(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON.
+
+        What the bearing sees is in ``bearings``, by its name, as in a machine.
+        """
+        around = MachineOutcome.model_fields.keys() & Outcome.model_fields
+        totals = ("discharges_per_s", "arc_power_mW")
+        return by_bearing(self, ALONE, [key for key in Outcome.model_fields if key in around - {*totals}], totals)
 
 
 def outcome_of(simulation: Simulation) -> Outcome:
@@ -394,6 +404,10 @@ class MachineOutcome(Answer):
     def text(self) -> str:
         """Return the lines for people."""
         return machine_outcome_text(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON."""
+        return self.model_dump(mode="json")
 
 
 def machine_outcome(found: CircuitSimulation) -> MachineOutcome:
