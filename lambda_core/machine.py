@@ -7,6 +7,7 @@ case that it would write.
 from __future__ import annotations
 
 import copy
+import logging
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
     from lambda_core.case.machine import MachineCase
+
+log = logging.getLogger("lambda_core")
 
 
 class Machine:
@@ -73,6 +76,9 @@ class Machine:
     ) -> Machine:
         """Describe one bearing under a load, without a shaft.
 
+        Adding a part, such as a gear, writes it as a machine: its bearing is called ``bearing`` and is at 0 mm of a
+        rigid shaft, its loads act there.
+
         Parameters
         ----------
         designation : str
@@ -113,6 +119,8 @@ class Machine:
     def shaft(self, *sections: str | Mapping[str, Any], **options: Any) -> Machine:
         """Give the shaft's pieces from left to right.
 
+        They replace the shaft that there is, with what holds it.
+
         Parameters
         ----------
         *sections : str or Mapping
@@ -126,6 +134,7 @@ class Machine:
             This object, so that calls can follow each other.
         """
         pieces = [_section(piece) for piece in sections]
+        self._expand()
         self._tables["shaft"] = ({"sections": pieces} if pieces else {}) | options
         return self
 
@@ -239,11 +248,26 @@ class Machine:
         return getattr(api, question)(self.case, **options)
 
     def _add(self, table: str, name: str, at: str | None, options: Mapping[str, Any]) -> Machine:
+        self._expand()
         parts = self._tables.setdefault(table, {})
         if name in parts:
             raise UsageError(f'{table}.{name} exists already; choose another name, or change it with "with_"')
         parts[name] = ({} if at is None else {"at": at}) | dict(options)
         return self
+
+    def _expand(self) -> None:
+        """Write the case of one bearing as a machine.
+
+        Parts can then be added to it.
+        """
+        if "bearing" not in self._tables:
+            return
+        from lambda_core.model.long_form import long_form
+
+        found = long_form(self.case)
+        for difference in found.differences:
+            log.warning("%s: %s", self.name, difference)
+        self._tables = found.tables
 
     def _merge(self, changes: Mapping[str, Any]) -> None:
         from lambda_core.case.written import merged

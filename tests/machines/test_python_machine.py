@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -49,6 +50,21 @@ def test_one_bearing_is_two_lines_shorter() -> None:
     found = machine.quasistatic()
     assert found.friction_torque_Nmm > 50.0
     assert found.max_load_N == pytest.approx(3000.0 * 5.0 / 9.0, rel=0.1)  # Stribeck: Q_max = 5 F / Z (no clearance)
+
+
+def test_a_part_makes_one_bearing_a_machine() -> None:
+    """Compare 1 kN more with 3 kN from the start.
+
+    It was refused, and the case had to be written as a machine by a command.
+    """
+    given: dict[str, Any] = {"speed": "3000 rpm", "oil": ("FVA3", "70 degC")}
+    single = lb.Machine.of_bearing("SKF 6208", radial="3 kN", **given).quasistatic()
+    machine = lb.Machine.of_bearing("SKF 6208", radial="2 kN", **given)
+    machine.load("belt", at="0 mm", force_z="-1 kN")
+    found = machine.quasistatic()
+    assert found.bearing("bearing").max_load_N == pytest.approx(single.max_load_N, rel=1e-4)
+    machine.shaft("80 mm x 40 mm").bearing("right", "SKF 6206", at="80 mm")
+    assert list(machine.quasistatic().bearings) == ["bearing", "right"]
 
 
 def test_mistakes_are_named_at_once_or_by_the_case() -> None:
