@@ -271,13 +271,13 @@ def _number(point: Any, bearing: str, response: str) -> float | None:
     return read(point)
 
 
-def _mode(point: Any, bearing: str, which: str, kind: str = "") -> float | None:
+def _mode(point: Any, bearing: str, which: str, kinds: Sequence[str] = ()) -> float | None:
     del bearing
-    rising = [mode.frequency_Hz for mode in point.modes_at_speed if kind in ("", mode.kind)]
+    rising = [mode.frequency_Hz for mode in point.modes_at_speed if not kinds or mode.kind in kinds]
     return rising[int(which) - 1] if int(which) <= len(rising) else None
 
 
 _OTHER: Mapping[str, Callable[[Any, str, str], float | None]] = {
     "modes": _mode,
-    "bending": lambda point, bearing, which: _mode(point, bearing, which, "bending"),
+    "bending": lambda point, bearing, which: _mode(point, bearing, which, ("bending", "lateral")),  # of a rigid shaft
 }

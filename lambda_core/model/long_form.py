@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from typing import Literal
 
 from lambda_core.case.case_io import Source, bearing_case
+from lambda_core.case.machine import MachineCase
 from lambda_core.case.short_form import LongForm, expand
+from lambda_core.case.written import validate
 from lambda_core.domain.elements import POSE
 from lambda_core.elements.roller.roller_equilibrium import takes_one_side
 from lambda_core.model.bearing_model import BearingModel
@@ -47,6 +49,15 @@ def long_form(source: Source, overrides: Iterable[str] = ()) -> LongForm:
     takes = _takes(model)
     play = axial_play(model, bought_clearance(case.bearing, model)) if takes else 0.0
     return expand(case, bar=(shaft.polar, shaft.transverse), held=held, takes=takes, play=play)
+
+
+def as_machine(source: Source | BearingModel, overrides: Iterable[str] = ()) -> MachineCase:
+    """Return one bearing as the case of a machine.
+
+    The parameters are those of :func:`long_form`, or a resolved bearing.
+    """
+    case = bearing_case(source.case if isinstance(source, BearingModel) else source, overrides)
+    return validate(MachineCase, long_form(case).tables, case.name, case.folder)
 
 
 def _takes(model: BearingModel) -> Literal["+x", "-x"] | None:

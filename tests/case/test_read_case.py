@@ -50,8 +50,6 @@ def test_a_machine_is_saved_with_its_comments(box: Path) -> None:
 def test_what_is_about_one_bearing_refuses_machines(box: Path) -> None:
     with pytest.raises(api.CaseError, match="is a machine, and this needs the case of one bearing"):
         bearing_case(box)
-    with pytest.raises(api.UsageError, match=r"modes need a shaft.*--as-machine"):
-        api.modes("6208-axial-1300")
 
 
 def test_modes_of_what_cannot_be_read_say_why(tmp_path: Path) -> None:

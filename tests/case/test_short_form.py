@@ -149,6 +149,23 @@ def test_a_program_reads_both_forms_alike(tmp_path: Path) -> None:
         assert alone.keys() - {"headline"} <= among.keys()
 
 
+def test_modes_are_those_of_ring_and_shaft_on_the_bearing() -> None:
+    """Compare with a mass on springs.
+
+    (2 pi f)^2 are the eigenvalues of K/m; x, y and z are free. The locked tilts, held by stiff springs in the
+    equilibrium, had modes of their own.
+    """
+    changes = [*STRAIGHT, "bodies.inner_ring.shaft_mass=20 kg"]
+    found = api.modes("6208-axial-1300", changes)
+    model = api.check("6208-axial-1300", changes)
+    (one,) = found.bearings.values()
+    ring = model.bearing_models[""].inner_ring
+    expected = np.sqrt(np.linalg.eigvalsh(np.array(one.stiffness)[:3, :3] / ring.mass)) / (2.0 * np.pi)
+    assert [mode.frequency_Hz for mode in found.modes] == pytest.approx(expected, rel=1e-3)
+    assert {mode.kind for mode in found.modes} == {"axial", "lateral"}
+    assert api.modes(model) == found
+
+
 THERMAL = [
     "thermal.nodes.housing.heat=20 W",
     "thermal.nodes.outer_ring.start=30 degC",

@@ -5,9 +5,12 @@ What it carries, and what it refuses.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
+from lambda_cli.main import main
+from lambda_plugins.views import operating_point
 
 from lambda_core import api
 
@@ -61,9 +64,27 @@ def test_a_disc_decides_the_natural_frequency() -> None:
     light = machine(discs={"rotor": {"at": "b", "mass": "2 kg"}}, gravity={"z": "0 m/s2"})
     heavy = machine(discs={"rotor": {"at": "b", "mass": "8 kg"}}, gravity={"z": "0 m/s2"})
     one, other = (
-        min(mode.frequency_Hz for mode in api.modes(each).modes if mode.kind == "bending") for each in (light, heavy)
+        min(mode.frequency_Hz for mode in api.modes(each).modes if mode.kind == "lateral") for each in (light, heavy)
     )
     assert one / other == pytest.approx(2.0, rel=0.06)
+
+
+def test_modes_of_one_bearing_are_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["modes", "6208-axial-1300", "--draw", str(tmp_path), "-q"]) == 0
+    assert "6208-axial-1300-whirl.svg" in capsys.readouterr().err
+
+
+def test_a_view_that_fails_is_named(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Say why a picture is missing.
+
+    Only the exit code told it.
+    """
+    monkeypatch.setattr(operating_point, "_ROLES", {})
+    assert main(["modes", "6208-axial-1300", "--draw", str(tmp_path), "-q"]) == 3
+    assert 'the view "whirl" (lambda-bearing ' in caplog.text
+    assert not list(tmp_path.iterdir())
 
 
 BEARINGS = {"b": {"designation": "SKF 6208", "at": "9 mm"}, "c": {"designation": "SKF 6208", "at": "90 mm"}}

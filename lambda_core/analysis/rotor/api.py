@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 from lambda_core.domain.blas_threads import one_blas_thread
-from lambda_core.domain.errors import UsageError
 from lambda_core.results.answer import answers
 
 if TYPE_CHECKING:
@@ -28,8 +27,9 @@ def modes(
 
     Parameters
     ----------
-    source : str, Path, mapping, MachineCase or MachineModel
-        File, plain tables as they stand in one, a case, or what :func:`check` returned.
+    source : str, Path, mapping, case or model
+        File, plain tables as they stand in one, a case, or what :func:`check` returned. A single bearing has a rigid
+        shaft with the mass of its inner ring.
     overrides : iterable of str
         Changes ``path=value``.
     announce : callable, optional
@@ -43,17 +43,15 @@ def modes(
     Raises
     ------
     UsageError
-        For the case of one bearing, which has no shaft that could whirl.
+        When there is no such case.
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
     from lambda_core.analysis.rotor.machine_point import MachinePoint
     from lambda_core.analysis.thermal.temperatures import ready_machine_of
     from lambda_core.case.case_io import is_machine
+    from lambda_core.model.long_form import as_machine
 
     if not is_machine(source):
-        raise UsageError(
-            "modes need a shaft, and this case has one bearing without a shaft: "
-            "lambda-bearing init NAME --from FILE --as-machine writes it on a shaft"
-        )
+        source, overrides = as_machine(source, overrides), ()  # type: ignore[arg-type]
     return MachinePoint(ready_machine_of(source, overrides, announce), announce).modes  # type: ignore[arg-type]

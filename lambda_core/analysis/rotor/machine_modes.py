@@ -54,7 +54,9 @@ class ModeAtSpeed(Record):
 
     frequency_Hz: float
     direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
-    kind: str = Field(description="motion of the shaft: bending, axial, torsion; body: motion of other bodies only")
+    kind: str = Field(
+        description="motion of the shaft: bending (of a rigid one lateral), axial, torsion; body: of other bodies only"
+    )
     bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
     damping_ratio: float = Field(description="share of critical damping, by the bearings; 0 where it is left out")
 
@@ -74,7 +76,7 @@ class CriticalSpeed(Record):
 
     speed_rpm: float
     direction: float
-    kind: str = Field(description="how the shaft moves most: bending, axial, torsion")
+    kind: str = Field(description="how the shaft moves most: bending (of a rigid one lateral), axial, torsion")
     bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
 
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 _AT_REST = "none: nothing turns"
 _FAR = 10  # times the running speed: critical speeds beyond it are counted only
+_ACROSS = ("bending", "lateral")  # kinds of modes that whirl
 _HEAD, _COLUMN = 24, 14  # least widths of a table
 # Matrix, its label, its unit and SI in that unit.
 _MATRICES = (
@@ -133,7 +134,7 @@ def modes_text(found: MachineModes, width: int | None = None, units: UnitSystem 
     table = [f"{'frequency Hz':<{_HEAD}}{'damping %':>{_COLUMN}}   motion"]
     table += [
         f"{f'{mode.frequency_Hz:.5g}':<{_HEAD}}{f'{1e2 * mode.damping_ratio:.2g}':>{_COLUMN}}   "
-        f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind == 'bending' else ''}{_with_bodies(mode.bodies_share)}"
+        f"{mode.kind}{f', {_way(mode.direction)}' if mode.kind in _ACROSS else ''}{_with_bodies(mode.bodies_share)}"
         for mode in found.modes
     ]
     notes = lines_under("assumption", found.assumptions)
@@ -168,7 +169,7 @@ def _mostly(kind: str) -> str:
 
     The shaft moves across its axis among other things.
     """
-    return "" if kind == "bending" else f" mostly {kind}"
+    return "" if kind in _ACROSS else f" mostly {kind}"
 
 
 def _with_bodies(share: float) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from lambda_core.domain.arrays import FloatArray
@@ -23,7 +24,7 @@ from lambda_core.solver.drivers.structure import Rows, static_rows, structure
 
 _ABOUT_X = 3  # row of a node that turns about the shaft
 _COUNT = 16  # modes that are looked at
-_LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending
+_LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending, of a rigid shaft as lateral
 _SHAKEN = 0.1  # of the motion squared across the axis: from here on unbalance shakes a mode of another kind too
 _FELT = 0.01  # of the kinetic energy in the shaft: a mode with less belongs to the other bodies alone
 
@@ -37,7 +38,7 @@ class Mode:
 
     frequency: float
     direction: float
-    kind: str  # bending, axial, torsion; body: of the other bodies alone
+    kind: str  # bending (of a rigid shaft lateral), axial, torsion; body: of the other bodies alone
     damping: float = 0.0  # share of critical
     bodies_share: float = 0.0  # share of the kinetic energy in the other bodies
     lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
@@ -126,10 +127,16 @@ def _joined(model: MachineModel, state: MachineState, *, springs: bool = True) -
     for link in _links(state, springs=springs):
         found += link.stiffness
     if springs and model.hold is not None:
-        kept = rows.node(model.hold.position) + np.array(PLACES)[list(model.hold.held)]
-        arm = model.bearings[0].model.geometry.width
+        kept, arm = _held(model, rows), model.bearings[0].model.geometry.width
         found[kept, kept] += np.where(kept % NODE < _ABOUT_X, LOCKED, LOCKED * arm**2)
     return found
+
+
+def _held(model: MachineModel, rows: Rows) -> NDArray[np.intp]:
+    """Return the shaft's rows that the ground holds."""
+    if model.hold is None:
+        return np.zeros(0, dtype=np.intp)
+    return rows.node(model.hold.position) + np.array(PLACES)[list(model.hold.held)]
 
 
 def _links(state: MachineState, *, springs: bool) -> list[SolvedLink]:
@@ -269,7 +276,8 @@ def modes_at(model: MachineModel, stiffness: FloatArray, spin: float, damping: F
     """
     mass, gyroscopic = masses(model)
     nodes = model.body.positions.size
-    found = whirls(stiffness, mass, gyroscopic, spin, damping=damping, nodes=nodes, count=_COUNT)
+    held = _held(model, static_rows(model)).tolist()
+    found = whirls(stiffness, mass, gyroscopic, spin, damping=damping, held=held, nodes=nodes, count=_COUNT)
     return [_mode(model, one, mass) for one in found]
 
 
@@ -279,7 +287,8 @@ def criticals(model: MachineModel, stiffness: FloatArray) -> list[Mode]:
     The speeds are in ascending order; the shaft bends, or swings together with its housing.
     """
     mass, gyroscopic = masses(model)
-    found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
+    held, nodes = _held(model, static_rows(model)).tolist(), model.body.positions.size
+    found = critical_speeds(stiffness, mass, gyroscopic, held=held, nodes=nodes, count=_COUNT)
     return [mode for mode in (_mode(model, one, mass) for one in found) if mode.lateral > _SHAKEN]
 
 
@@ -293,5 +302,6 @@ def _mode(model: MachineModel, one: Whirl, mass: FloatArray) -> Mode:
     lateral, axial = square[:, 1:3].sum(), square[:, 0].sum()
     turning = square[:, 3].sum() * 1e-4  # at a radius of a centimetre
     share = float(lateral / (lateral + axial + turning))
-    kind = "bending" if share > _LATERAL else "axial" if axial > turning else "torsion"
+    across = "lateral" if model.body.is_rigid else "bending"
+    kind = across if share > _LATERAL else "axial" if axial > turning else "torsion"
     return Mode(one.frequency, one.direction, kind, one.damping, bodies_share, share)

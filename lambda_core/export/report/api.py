@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
+log = logging.getLogger("lambda_core")
 _PAGES = (".html", ".htm")
 
 
@@ -130,7 +132,7 @@ def machine_pictures(equilibrium: StaticAnswer | None = None, modes: MachineMode
     Returns
     -------
     list of ViewData
-        For :func:`draw`: every installed view of a machine that has something to show.
+        For :func:`draw`: every installed view of a machine that has something to show. A warning names one that fails.
 
     Raises
     ------
@@ -138,13 +140,17 @@ def machine_pictures(equilibrium: StaticAnswer | None = None, modes: MachineMode
         For an equilibrium that was read from data.
     """
     from lambda_core.discovery.api import registry
+    from lambda_core.domain.plugin_errors import failures_so_far
     from lambda_core.export.report.gallery import every
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import MachineData
 
     model = equilibrium.solved() if equilibrium is not None else None
-    shown = every(registry(), MachineData(model, equilibrium, modes), "machine")
-    return [data for _, data in shown if isinstance(data, ViewData)]
+    shown = [data for _, data in every(registry(), MachineData(model, equilibrium, modes), "machine")]
+    for reason in shown:
+        if str(reason) in failures_so_far():
+            log.warning("%s", reason)
+    return [data for data in shown if isinstance(data, ViewData)]
 
 
 def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:

@@ -73,6 +73,7 @@ def whirls(
     spin: float,
     *,
     damping: FloatArray | None = None,
+    held: Sequence[int] = (),
     nodes: int,
     count: int = 8,
 ) -> list[Whirl]:
@@ -89,6 +90,8 @@ def whirls(
         [rad/s]
     damping : float64[:, :], optional
         Of bearings [N s/m, N m s/rad].
+    held : sequence of int
+        Rows that do not move.
     nodes : int
         How many nodes of six coordinates the first rows are.
     count : int
@@ -97,7 +100,7 @@ def whirls(
     n = mass.shape[0]
     rates = spin * gyroscopic + (0.0 if damping is None else damping)
     # Without damping and slow next to the rest: the lowest modes at rest span those of the turning shaft.
-    _, basis = natural_frequencies(stiffness, mass, count=min(n, max(6 * count, 48)))
+    _, basis = natural_frequencies(stiffness, mass, held, min(n, max(6 * count, 48)))
     k, c = basis.T @ stiffness @ basis, basis.T @ rates @ basis
     size = k.shape[0]
     system = np.block([[np.zeros((size, size)), np.eye(size)], [-k, -c]])
@@ -113,7 +116,13 @@ def whirls(
 
 @one_blas_thread()
 def critical_speeds(
-    stiffness: FloatArray, mass: FloatArray, gyroscopic: FloatArray, *, nodes: int, count: int = 8
+    stiffness: FloatArray,
+    mass: FloatArray,
+    gyroscopic: FloatArray,
+    *,
+    held: Sequence[int] = (),
+    nodes: int,
+    count: int = 8,
 ) -> list[Whirl]:
     """Return the critical speeds of a shaft.
 
@@ -124,12 +133,14 @@ def critical_speeds(
     Parameters
     ----------
     stiffness, mass, gyroscopic : float64[:, :], shape (n, n)
+    held : sequence of int
+        Rows that do not move.
     nodes : int
         How many nodes of six coordinates the first rows are.
     count : int
         How many, the lowest.
     """
-    _, basis = natural_frequencies(stiffness, mass, count=min(mass.shape[0], max(6 * count, 48)))
+    _, basis = natural_frequencies(stiffness, mass, held, min(mass.shape[0], max(6 * count, 48)))
     k = basis.T @ stiffness @ basis
     squares, vectors = eig(k, np.eye(k.shape[0]) - 1j * (basis.T @ gyroscopic @ basis))
     least = 1e-12 * abs(k[-1, -1])

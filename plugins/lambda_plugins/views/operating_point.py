@@ -12,7 +12,7 @@ import numpy as np
 from lambda_core.plugins import Arrows, Axis, MachineData, Mark, NotApplicable, Options, Panel, Series, View, ViewData
 from lambda_plugins.views.bearing_section import Sizes, against_the_shaft, box, enlarged, from_the_side, outline
 
-_ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
+_ROLES = {"bending": "inner", "lateral": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
 
 def _source(found: Any) -> str:
@@ -164,7 +164,7 @@ def _loads(name: str, contacts: Any) -> Panel:
 
 
 def campbell(machine: MachineData, options: Options) -> ViewData:
-    """Return natural bending frequencies over speed.
+    """Return natural frequencies over speed.
 
     It shows the line of one per revolution, too.
     """
