@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from lambda_core.catalogue.protocol import Catalogue, RollerRow
 from lambda_core.domain.errors import CatalogueError, Problem, nearest
 
+_NSK_PREFIX = re.compile(r"^HR(?=\d)")  # of its tapered bearings of high capacity: HR 30206 J
 # Suffixes of cages and designs that change no number of the quasi-static answer, and classes of the radial clearance,
 # which a tapered bearing has not (SKF, Rolling bearings, 2018).
 _CLEARANCES = ("CN", "C2", "C3", "C4", "C5")
@@ -36,13 +37,13 @@ def roller_designation(catalogue: Catalogue, text: str, maker: str | None = None
     Raises
     ------
     CatalogueError
-        For an unknown suffix, or a maker that has no such bearing.
+        For an unknown suffix, a maker that has no such bearing, or several makers and none given.
     """
     rows = sorted(catalogue.rollers(), key=lambda row: -len(row.designation))
     makers = {row.maker.upper() for row in rows}
     words = text.upper().split()
     named = [word for word in words if word in makers]
-    squeezed = "".join(word for word in words if word not in named)
+    squeezed = _NSK_PREFIX.sub("", "".join(word for word in words if word not in named))
     found = [row for row in rows if _begins(squeezed, row.designation)]
     if not found:
         return None
@@ -53,6 +54,11 @@ def roller_designation(catalogue: Catalogue, text: str, maker: str | None = None
         known = ", ".join(row.maker for row in same)
         sentence = f'"{asked}" is not a maker of {same[0].designation} in the catalogue; makers: {known}'
         raise CatalogueError("catalogue", [Problem("maker", sentence)])
+    if len(own) > 1:
+        known = ", ".join(row.maker for row in own)
+        sentence = f'"{own[0].designation}" is in the catalogue from several makers; choose one: {known}'
+        example = f'{sentence} (as in "{own[0].maker} {own[0].designation}")'
+        raise CatalogueError("catalogue", [Problem("maker", example)])
     base = own[0].designation.replace(" ", "")
     return RollerDesignation(own[0], text, _clearance(squeezed[len(base) :], own[0]))
 

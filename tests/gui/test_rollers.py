@@ -102,7 +102,7 @@ def test_options_of_balls_stand_under_their_own_heading() -> None:
 async def test_a_roller_bearing_comes_from_the_catalogue(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
-        await pilot.press("f2", *"tapered 322")
+        await pilot.press("f2", *"tapered 322 grade=b")
         await wait_for(pilot, lambda: "32208" in screen_text(pilot.app))
         await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 2)
         assert "17 x 10 " in screen_text(pilot.app)

@@ -76,7 +76,7 @@ ROLLERS = {"radial": "5 kN", "speed": "3000 rpm", "life": "10000 h"}
 
 
 def test_rollers_are_chosen_with_their_own_exponent_and_limits() -> None:
-    found = api.choose(**ROLLERS, kind="NU", limit=3)
+    found = api.choose(**ROLLERS, kind="NU", bore="40 mm", limit=3)
     nu_208 = next(one for one in found.candidates if one.designation == "NU 208")
     alone = api.quasistatic({
         "name": "nu",
@@ -93,11 +93,11 @@ def test_rollers_are_chosen_with_their_own_exponent_and_limits() -> None:
 
 
 def test_thrust_leaves_only_rollers_that_carry_it() -> None:
-    found = api.choose(**ROLLERS, axial="1.5 kN", kind="cylindrical")
-    assert {one.designation for one in found.candidates} == {"NJ 2208", "NUP 2208"}
+    found = api.choose(**ROLLERS, axial="1.5 kN", kind="cylindrical", bore="40 mm")
+    assert {one.designation for one in found.candidates} == {"NJ 2208", "NUP 2208", "NJ 308", "NUP 308"}
     assert found.left_out["have ribs that carry less axial load"] == 3  # NJ 208: 2.2 kN by heat less 0.15 F_r (SKF)
     assert found.left_out["have rollers that carry no axial load (NU, N, needle)"] >= 4
-    turned = api.choose(**ROLLERS, axial="-1.5 kN", kind="cylindrical")
+    turned = api.choose(**ROLLERS, axial="-1.5 kN", kind="cylindrical", bore="40 mm")
     assert [one.life_h for one in turned.candidates] == [one.life_h for one in found.candidates]
 
 
