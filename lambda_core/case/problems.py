@@ -145,6 +145,8 @@ def _message(item: Any, path: list[int | str], model: type[BaseModel], data: Any
         return f"{_quoted(value)}: use letters, digits, dot, dash and underscore only, the first a letter or digit"
     if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
         return f'write it in quotes: "{value}"'
+    if kind == "string_type" and isinstance(value, Mapping):
+        return f'is text in quotes, not a table: write {name} = "{value.get("name", "...")}"{_help(parent, name)}'
     if _EXPECTED.get(kind) == "a table":
         return f"{_quoted(value)} is not a table: write its options in [{'.'.join(map(str, path))}]"
     if kind in _EXPECTED:

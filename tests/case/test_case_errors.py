@@ -35,6 +35,11 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         ({"bearing": {"clearance_pick": "midle"}}, "bearing.clearance_pick", "nearest: middle"),
         ({"bearing": {"fits": {"shaft": "12"}}}, "bearing.fits.shaft", "has no unit"),
         ({"bearing": "6208"}, "bearing", "is not a table: write its options in [bearing]"),
+        (
+            {"models": {"traction": {"name": "ree-eyring"}}},
+            "models.traction",
+            'is text in quotes, not a table: write traction = "ree-eyring"',
+        ),
         ({"lubricant": {"temperature": "40"}}, "lubricant.temperature", 'write "40 degC"'),
         ({"lubricant": {"temperature": None}}, "lubricant.temperature", "is required"),
         ({"lubricant": {"starvation": 1.5}}, "lubricant.starvation", "must be at most 1"),
