@@ -145,7 +145,7 @@ def resolve(
     if not is_static:
         say_overshoot(signals_of(case), ledger)
     check_bodies(case, ledger)
-    check_thermal(case, ledger)
+    check_thermal(case, ledger, has_cage=case.depth.cage or has_grooves)
     _settings(case, ledger)
     kind = bare[0].kind.name if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")

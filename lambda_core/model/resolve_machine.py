@@ -218,7 +218,8 @@ def _shaft(
     if case.shaft.is_rigid:  # the balls of its one bearing are in equilibrium with their friction, too
         neglected = "displacement"
         ledger.assume("the shaft is rigid, its mass that of inner ring and discs: it has no sections")
-    heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
+    caged = {one.name: not one.model.full_complement for one in bearings}
+    heat = resolve_heat(case, caged, body, (material, around), ledger)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
         for sentence in model.assumptions:

@@ -16,7 +16,7 @@ from lambda_core.case.thermal import Thermal
 from lambda_core.laws.context import Material
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.bodies.resolve_bodies import ring_inertia
-from lambda_core.model.settings.resolve_thermal import OWN_NODES, SUPPLY
+from lambda_core.model.settings.resolve_thermal import CAGE, OWN_NODES, SUPPLY
 from lambda_core.solver.drivers.tables import ball_mass
 
 Pairs = dict[tuple[str, str], float]
@@ -118,10 +118,11 @@ class BearingNodes:
             ("inner_ring", "oil"): h * math.pi * g.race_diameter_inner * g.width,
             ("outer_ring", "oil"): h * math.pi * g.race_diameter_outer * g.width,
             ("balls", "oil"): h * g.ball_count * _surface(self.model),
-            ("cage", "oil"): h * 2.0 * math.pi * g.pitch_diameter * self.model.cage.width,
             ("inner_ring", "balls"): point["contact_inner"],
             ("outer_ring", "balls"): point["contact_outer"],
         }
+        if not self.model.full_complement:
+            found[CAGE, "oil"] = h * 2.0 * math.pi * g.pitch_diameter * self.model.cage.width
         if self.thermal.conductances in ("harris", "palmgren"):
             slow = oil_film_coefficient(speed / 3.0, g.outside_diameter, nu, k, prandtl)
             found["oil", "housing"] = slow * 0.5 * math.pi * g.outside_diameter**2
@@ -132,7 +133,7 @@ class BearingNodes:
     def capacities(self, density: float) -> dict[str, float]:
         """Return the heat capacities [J/K].
 
-        They are those of the rings, the balls, the oil of a density [kg/m3], and the cage.
+        They are those of the rings, the balls, the oil of a density [kg/m3], and the cage, if there is one.
         """
         g, model, t = self.model.geometry, self.model, self.thermal
         rings: dict[str, Material] = {"inner": model.inner_material, "outer": model.outer_material}
@@ -143,5 +144,6 @@ class BearingNodes:
         }
         own["balls"] = g.ball_count * ball_mass(model) * model.ball_material.specific_heat
         own["oil"] = (t.oil_volume or _OIL_SHARE * space) * density * model.oil.specific_heat
-        own["cage"] = model.cage_body.mass * model.cage_material.specific_heat
+        if not model.full_complement:
+            own[CAGE] = model.cage_body.mass * model.cage_material.specific_heat
         return {self.node(name): value for name, value in own.items()}

@@ -68,4 +68,6 @@ def bearing_network(model: BearingModel, thermal: Thermal) -> MachineNetwork:
     It is in a pillow block.
     """
     bearing = BearingNodes(model, thermal)
-    return MachineNetwork(model.name, nodes_alone(thermal), (bearing,), PillowBlock(bearing))
+    return MachineNetwork(
+        model.name, nodes_alone(thermal, has_cage=not model.full_complement), (bearing,), PillowBlock(bearing)
+    )

@@ -197,7 +197,7 @@ class TemperaturesOverTime(Answer):
 
 def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point") -> SteadyTemperatures:
     """Put steady temperatures into the units of the interface."""
-    names, network = _shown(loop), found.network
+    names, network = loop.nodes.names, found.network
     heat = float(network.heat.sum())
     grown = loop.grown(loop.nodes.named(found.temperatures)).tolist()
     each = zip(loop.bearings, loop.nodes.bearings, found.points, grown, strict=True)
@@ -207,12 +207,12 @@ def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point"
         speed_rpm=loop.speed * 30.0 / math.pi,
         losses_from=losses_from,
         conductances=loop.thermal.conductances,
-        temperatures_degC={name: float(found.temperatures[i]) - _ZERO_CELSIUS for i, name in names.items()},
-        heat_W={name: float(network.heat[i]) for i, name in names.items()},
+        temperatures_degC={name: float(found.temperatures[i]) - _ZERO_CELSIUS for i, name in enumerate(names)},
+        heat_W={name: float(network.heat[i]) for i, name in enumerate(names)},
         shaft=_along(loop, found.temperatures),
         bearings={
             bearing.name: BearingState(
-                **_identity(nodes, names.values()),
+                **_identity(nodes, names),
                 position_mm=1e3 * bearing.position,
                 growth_um=1e6 * growth,
                 state=_state(point),
@@ -233,7 +233,7 @@ def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point"
 
 def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
     """Put temperatures over time into the units of the interface."""
-    names = _shown(loop)
+    names = loop.nodes.names
     celsius = course.temperatures - _ZERO_CELSIUS
     grown = np.array([loop.grown(loop.nodes.named(temperatures)) for temperatures in course.temperatures])
     each = enumerate(zip(loop.bearings, loop.nodes.bearings, strict=True))
@@ -245,16 +245,16 @@ def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
         ended="limit" if course.beyond_limit else "finished",
         reason=_reason(loop, course),
         time_s=course.time.tolist(),
-        temperatures_degC={name: celsius[:, i].tolist() for i, name in names.items()},
+        temperatures_degC={name: celsius[:, i].tolist() for i, name in enumerate(names)},
         shaft=_along(loop, course.temperatures[-1]),
         bearings={
             bearing.name: _bearing_course(
-                _identity(nodes, names.values()), [points[i] for points in course.points], (1e6 * grown[:, i]).tolist()
+                _identity(nodes, names), [points[i] for points in course.points], (1e6 * grown[:, i]).tolist()
             )
             for i, (bearing, nodes) in each
         },
         power_loss_W=[sum(point.power for point in points) for points in course.points],
-        rise_63_s={name: finite(rise_time(course, i, 1.0 - math.exp(-1.0))) for i, name in names.items()},
+        rise_63_s={name: finite(rise_time(course, i, 1.0 - math.exp(-1.0))) for i, name in enumerate(names)},
         heat_in_J=course.put_in,
         heat_out_J=course.taken_out,
         heat_stored_J=course.stored,
@@ -276,15 +276,6 @@ def _bearing_course(identity: dict[str, Any], points: Sequence[Point], growth_um
         viscosity_mm2_per_s=[1e6 * point["viscosity"] for point in points],
         film_um=[finite(1e6 * point["film"]) for point in points],
     )
-
-
-def _shown(loop: Loop) -> dict[int, str]:
-    """Return the nodes by number, without cages of full complements.
-
-    Such a node touches the oil alone and has its temperature.
-    """
-    absent = {nodes.node("cage") for nodes in loop.nodes.bearings if nodes.model.full_complement}
-    return {i: name for i, name in enumerate(loop.nodes.names) if name not in absent}
 
 
 def _identity(nodes: BearingNodes, names: Collection[str]) -> dict[str, Any]:

@@ -17,7 +17,9 @@ from lambda_core.formulas.elastic.sections import BodyMaterial
 from lambda_core.formulas.fits import REFERENCE_TEMPERATURE
 from lambda_core.model.ledger import Ledger
 from lambda_core.model.settings.resolve_thermal import (
+    CAGE,
     INSIDE,
+    NO_CAGE,
     OUTSIDE,
     OWN_NODES,
     SUPPLY,
@@ -100,7 +102,7 @@ def check_heat(case: MachineCase, ledger: Ledger) -> None:
 
 def resolve_heat(
     case: MachineCase,
-    bearings: Sequence[str],
+    bearings: Mapping[str, bool],
     body: ElasticBody,
     materials: tuple[BodyMaterial, BodyMaterial],
     ledger: Ledger,
@@ -113,8 +115,8 @@ def resolve_heat(
     ----------
     case : MachineCase
         With positions in place of markers.
-    bearings : sequence of str
-        Names, from left to right.
+    bearings : mapping of str to bool
+        Whether they have a cage, by name, from left to right.
     body : ElasticBody
         The shaft.
     materials : tuple of BodyMaterial
@@ -127,7 +129,11 @@ def resolve_heat(
     shaft = _shaft_nodes(case, body)
     given = {**section.nodes, **_own_nodes(case)}
     supplies = {f"{name}.{SUPPLY}": one for name, one in own.items() if one.oil_flow > 0.0}
+    absent = {f"{name}.{CAGE}" for name, has_cage in bearings.items() if not has_cage}
+    for name in absent & {*given}:
+        ledger.problem(f"bearings.{name.removesuffix(f'.{CAGE}')}.thermal.nodes.{CAGE}", NO_CAGE)
     names = [f"{name}.{node}" for name in bearings for node in BEARING_NODES if node != "shaft"]
+    names = [name for name in names if name not in absent]
     names += [*shaft, *_SHARED, *supplies]
     names += [name for name in given if name not in names]
     links = {(link.between[0], link.between[1]): link.conductance for link in section.links.values()}

@@ -13,6 +13,8 @@ from lambda_core.model.ledger import Ledger
 
 # The bearing's own nodes, in the order in which every network has them.
 OWN_NODES = ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft", "housing", "ambient")
+CAGE = "cage"
+NO_CAGE = "rollers of a full complement have no cage: leave it out"
 SUPPLY = "oil_supply"  # where oil that flows through the bearing comes from
 Pair = tuple[str, str]
 
@@ -74,10 +76,10 @@ class NodeSet:
         return isolated(self.names, self.pairs, self.held)
 
 
-def nodes_alone(thermal: Thermal) -> NodeSet:
+def nodes_alone(thermal: Thermal, *, has_cage: bool) -> NodeSet:
     """Return the nodes of a bearing alone."""
     return NodeSet(
-        names=node_names(thermal),
+        names=node_names(thermal, has_cage=has_cage),
         pairs=joined(thermal),
         held=held_temperatures(thermal),
         given=thermal.nodes,
@@ -86,12 +88,13 @@ def nodes_alone(thermal: Thermal) -> NodeSet:
     )
 
 
-def node_names(thermal: Thermal) -> tuple[str, ...]:
+def node_names(thermal: Thermal, *, has_cage: bool) -> tuple[str, ...]:
     """Return the names of all nodes.
 
     The bearing's own, the oil supply where oil flows, the case's further ones.
     """
-    own = (*OWN_NODES, *([SUPPLY] if thermal.oil_flow > 0.0 else []))
+    parts = (name for name in OWN_NODES if has_cage or name != CAGE)
+    own = (*parts, *([SUPPLY] if thermal.oil_flow > 0.0 else []))
     return (*own, *(name for name in thermal.nodes if name not in own))
 
 
@@ -122,13 +125,15 @@ def isolated(names: Iterable[str], pairs: Iterable[Pair], held: Iterable[str]) -
         reached |= more
 
 
-def check_thermal(case: Case, ledger: Ledger) -> None:
+def check_thermal(case: Case, ledger: Ledger, *, has_cage: bool) -> None:
     """Note everything impossible in a thermal network.
 
-    It is that of a case.
+    It is that of a case; a full complement has no cage.
     """
     thermal = case.thermal
-    names = node_names(thermal)
+    names = node_names(thermal, has_cage=has_cage)
+    if not has_cage and CAGE in thermal.nodes:
+        ledger.problem(f"thermal.nodes.{CAGE}", NO_CAGE)
     check_surroundings(thermal, ledger)
     check_nodes(thermal.nodes, (SUPPLY,), ledger)
     fine = check_links(thermal, names, ledger)
