@@ -64,13 +64,13 @@ def test_a_law_of_no_oil_is_given_up_after_one_attempt(monkeypatch: pytest.Monke
     """
     monkeypatch.setattr(equilibrium, "MAX_ITERATIONS", {False: 5000, True: 0})
     monkeypatch.setattr(equilibrium, "_FRESH_ITERATIONS", 0)
-    attempt, made = equilibrium._attempt, []
+    attempt, made = equilibrium.attempt, []
 
     def counted(*arguments: Any) -> Any:
         made.append(arguments[3])
         return attempt(*arguments)
 
-    monkeypatch.setattr(equilibrium, "_attempt", counted)
+    monkeypatch.setattr(equilibrium, "attempt", counted)
     case = api.case("6319-cp10-1500").with_(models={"traction": limitless})
     with pytest.raises(SolverError, match="limiting stress"):
         equilibrium.solve(api.check(case))

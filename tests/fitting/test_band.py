@@ -645,13 +645,13 @@ def test_a_case_without_a_solution_near_has_its_answer_and_the_reason(monkeypatc
         "models": {"damping": "hunt-crossley", "thermal_correction": "zhu-cheng"},
     }
     searches: list[int] = []
-    search = equilibrium._attempt
+    search = equilibrium.attempt
 
     def counted(*arguments: Any) -> Any:
         searches.append(1)
         return search(*arguments)
 
-    monkeypatch.setattr(equilibrium, "_attempt", counted)
+    monkeypatch.setattr(equilibrium, "attempt", counted)
     found = api.quasistatic(case, band=True)
     assert isinstance(found, QuasiStatic)
     assert found.friction_torque_Nmm is not None
@@ -668,14 +668,14 @@ def test_a_band_takes_few_iterations_where_unloaded_balls_change_their_motion(mo
     They were 715 without friction in 56 searches: changed solutions began far from the unchanged one.
     """
     done: dict[bool, list[float]] = {True: [], False: []}
-    search = equilibrium._attempt
+    search = equilibrium.attempt
 
     def counted(compiled: Any, context: Any, *arguments: Any) -> Any:
         status, report = search(compiled, context, *arguments)
         done[bool(context.bundle.system[0]["friction_on"])].append(float(report["iterations"][0]))
         return status, report
 
-    monkeypatch.setattr(equilibrium, "_attempt", counted)
+    monkeypatch.setattr(equilibrium, "attempt", counted)
     _light_self_aligning(1000, 50)
     assert len(done[True]) + len(done[False]) <= 44
     assert sum(done[False]) <= 550

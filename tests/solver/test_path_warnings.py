@@ -23,7 +23,9 @@ def nine() -> Any:
     tables = SimpleNamespace(
         rows=np.array([(L.NB,)], dtype=[("size", int)]), system=np.array([(9 * L.NB,)], dtype=[("tail", int)])
     )
-    return SimpleNamespace(model=SimpleNamespace(geometry=geometry, rollers=None), bundle=tables)
+    return SimpleNamespace(
+        model=SimpleNamespace(geometry=geometry, rollers=None), bundle=tables, driven=np.zeros(9, dtype=np.int64)
+    )
 
 
 def start() -> Any:
@@ -40,14 +42,14 @@ def test_an_iteration_that_does_not_settle_says_so(swing: bool, caplog: pytest.L
     given = nine()
     sign = [1.0]
 
-    def solve(state: Any) -> StaticReport:
+    def solve(state: Any, driven: Any) -> StaticReport:
         if swing:  # each equilibrium has the opposite path of the one before
             sign[0] = -sign[0]
             balls = state.view(R.BALL)
             balls["x"] = sign[0] * 1e-5 * np.cos(balls["azimuth"])
         return np.zeros(1, dtype=[("orbit", float)])
 
-    follow_paths(given, start(), np.zeros(1, dtype=[("orbit", float)]), solve)
+    follow_paths(given, start(), np.zeros(1, dtype=[("orbit", float)]), solve, lambda state: given.driven)
     told = [record.getMessage() for record in caplog.records]
     assert bool(told) == swing
     assert all("deviate from their paths by" in text for text in told)

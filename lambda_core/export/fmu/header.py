@@ -27,6 +27,7 @@ from lambda_core.solver.drivers.coupling import MOST_ITERATIONS, MOST_ITERATIONS
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
 from lambda_core.solver.drivers.external_inputs import SHAFT_SPIN
 from lambda_core.solver.drivers.ring_values import are_ribs, rings_of_contacts
+from lambda_core.solver.drivers.static_search import BEGUN
 from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status
 
@@ -216,6 +217,8 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "BALLS_OF_A_ROW": start.slope.size,
         "REPORT_SIZE": start.report.nbytes,
         "REPORT_ORBIT": image.place(start.report) + _at(STATIC_REPORT, "orbit"),
+        "REPORT_ITERATIONS": image.place(start.report) + _at(STATIC_REPORT, "iterations"),
+        "BEGUN": BEGUN,
         "FRICTION_ON": system + _at(R.SYSTEM, "friction_on"),
         "GUIDES_ON": system + _at(R.SYSTEM, "guides_on"),
         "SPIN": spin[0] if spin else -1,

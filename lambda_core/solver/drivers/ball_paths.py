@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +27,29 @@ _MEMORY = 2  # steps of the iteration that are combined, as in source/start.c of
 _STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
 PATH_TOLERANCE = 0.05  # of the largest axial velocity
 NO_PATH = 1e-6  # of rolling
-_SAME = 0.02  # by which two differences agree of an iteration that goes to and fro
-# Solves for the equilibrium from a state, in place, and returns its report.
-Solve = Callable[[FloatArray], StaticReport]
+Driven = NDArray[np.int64]  # 1 for balls that the cage drives
+# Solves for the equilibrium from a state, in place, and returns its report. Which balls the cage drives is given, or
+# decided at the state.
+Solve = Callable[[FloatArray, Driven | None], StaticReport]
 
 
-def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
+class _Stage(NamedTuple):
+    """An equilibrium on the way, and the velocities it has."""
+
+    state: FloatArray
+    moving: FloatArray
+    off: FloatArray  # of the paths from these velocities
+    driven: Driven
+    report: StaticReport
+
+
+def follow_paths(
+    context: SolverContext,
+    state: FloatArray,
+    report: StaticReport,
+    solve: Solve,
+    driven_at: Callable[[FloatArray], Driven],
+) -> StaticReport:
     """Move balls along their paths.
 
     They move axially and radially; the friction's equilibrium is then found again, in place.
@@ -42,9 +59,12 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
     is; so it does rollers. The iteration is the mixing of D. G. Anderson (1965, J. ACM 12, 547) in the form of H. F.
     Walker and P. Ni (2011, SIAM J. Numer. Anal. 49, 1715, eq. 2.2 and 2.3): steps of a fixed share diverge at low speed
-    where few balls carry. Where no equilibrium follows a step of the iteration, the last one stands. Where friction
-    turns about with every step, it goes to and fro between two states and ends in the one that all steps end in. Where
-    velocities and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
+    where few balls carry. Where no equilibrium follows a step of the iteration, the last one stands. Where velocities
+    and paths still differ by more than PATH_TOLERANCE, a warning in the log says so.
+
+    Which balls the cage drives is decided anew with every step. A ball may carry too little to hold itself while it
+    does so, and enough once the cage drives it: then the steps alternate between two motions. The iteration goes on in
+    the first of them, in which that ball is as it was decided before.
 
     Parameters
     ----------
@@ -54,6 +74,8 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
         Of the search for it; returned where nothing is to be done.
     solve : callable
         Finds the equilibrium from a state, in place; raises EquilibriumError where it finds none.
+    driven_at : callable
+        Returns the balls that the cage would drive in a search from a state.
     """
     g = context.model.geometry
     if g.kind.on_sphere or context.model.rollers is not None:
@@ -61,21 +83,20 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     balls = L.elements_in(context.bundle, state)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
-    points: list[FloatArray] = []
-    differences: list[FloatArray] = []
-    sizes: list[float] = []
-    for number in range(PATH_ITERATIONS):
+    stages: list[_Stage] = []
+    held: Driven | None = None
+    for _ in range(PATH_ITERATIONS):
         aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
         across = float(np.abs(aim[:, 0]).max())
         change = float(np.abs(aim - moving)[:, 0].max())
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             return report
-        sizes.append(change / across)
-        if (PATH_ITERATIONS - number) % 2 == 0 and _goes_to_and_fro(sizes):
-            break
-        points.append(moving.copy())
-        differences.append(aim - moving)
-        taken = _step_along(context.bundle, state, moving, _mixed(points, differences), solve)
+        stages.append(_Stage(state.copy(), moving.copy(), aim - moving, context.driven.copy(), report))
+        if held is None and (first := _first_of_alternating(stages, driven_at(state))) is not None:
+            stages, held = [first], first.driven
+            state[:], moving, report = first.state, first.moving.copy(), first.report
+            context.driven[:] = held
+        taken = _step_along(context.bundle, state, moving, _mixed(stages), solve, held)
         if taken is None:
             break
         report, done = taken
@@ -89,26 +110,31 @@ def follow_paths(context: SolverContext, state: FloatArray, report: StaticReport
     return report
 
 
-def _goes_to_and_fro(sizes: list[float]) -> bool:
-    """Tell whether differences repeat those of two steps before."""
-    latest, before = sizes[-2:], sizes[-4:-2]
-    return len(before) == len(latest) and all(
-        abs(now - then) <= _SAME * now for now, then in zip(latest, before, strict=True)
-    )
+def _first_of_alternating(stages: list[_Stage], now: Driven) -> _Stage | None:
+    """Return the stage to go on from where two alternate.
+
+    `now` are the balls that the cage would drive in the next step. All steps, an even number, would end in the motion
+    of stages with an even number.
+    """
+    if len(stages) < 2 or (now == stages[-1].driven).all() or (now != stages[-2].driven).any():
+        return None
+    return stages[-1] if len(stages) % 2 else stages[-2]
 
 
-def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArray:
+def _mixed(stages: list[_Stage]) -> FloatArray:
     """Return the fixed-point iteration's next step.
 
     It follows from its points and from their distances to the fixed point's map.
 
     The combination of the last differences that is least foretells where they vanish.
     """
-    latest = differences[-1]
-    if len(points) == 1:
+    latest = stages[-1].off
+    if len(stages) == 1:
         return latest
+    recent = stages[-_MEMORY - 1 :]
     moved, changed = (
-        np.diff([one.ravel() for one in each[-_MEMORY - 1 :]], axis=0).T for each in (points, differences)
+        np.diff([one.ravel() for one in each], axis=0).T
+        for each in ([stage.moving for stage in recent], [stage.off for stage in recent])
     )
     weights = np.linalg.lstsq(changed, latest.ravel(), rcond=None)[0]
     step: FloatArray = PATH_SHARE * latest - ((moved + PATH_SHARE * changed) @ weights).reshape(latest.shape)
@@ -116,7 +142,7 @@ def _mixed(points: list[FloatArray], differences: list[FloatArray]) -> FloatArra
 
 
 def _step_along(
-    bundle: L.Bundle, state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve
+    bundle: L.Bundle, state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve, held: Driven | None
 ) -> tuple[StaticReport, FloatArray] | None:
     """Change the balls' axial and radial velocities.
 
@@ -128,7 +154,7 @@ def _step_along(
         trial, part = state.copy(), share * step
         L.elements_in(bundle, trial)["velocity"][:, :2] = moving + part
         try:
-            report = solve(trial)
+            report = solve(trial, held)
         except EquilibriumError:
             continue
         state[:] = trial

@@ -9,6 +9,7 @@ revolution: in the bearing none stays in the oil bath, and the cage carries it t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
-from lambda_core.domain.time_limit import check_time, is_late
+from lambda_core.domain.time_limit import is_late
 from lambda_core.elements.ball.geometry import Geometry
 from lambda_core.elements.ball.raceways import raceways, raceways_of_a_ball
 from lambda_core.laws.law import Law
@@ -39,6 +40,7 @@ from lambda_core.solver.drivers.law_inputs import guides, times
 from lambda_core.solver.drivers.position_continuation import by_other_positions
 from lambda_core.solver.drivers.ring_values import are_ribs, contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+from lambda_core.solver.drivers.static_search import CREEP, attempt, driven_at
 from lambda_core.solver.drivers.tables import bearing_of_land
 from lambda_core.solver.drivers.viscosity_continuation import StaticReport, by_viscosity_continuation
 from lambda_core.solver.records import CONTACT_CHANNELS, STATIC_REPORT
@@ -48,16 +50,10 @@ _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
 # Without friction an iteration is cheap, and at low speed unloaded balls slide far along the groove.
 MAX_ITERATIONS = {False: 5000, True: 1000}
-_ITERATIONS_PER_CALL, _ALWAYS = 50, 200  # some hundredths of a second; however late it is
 _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
 # First step in pseudo-time [s]; from a state near the equilibrium; and that with which the way from there is tried
 # first, for so many iterations: above 1 s the continuation is Newton's method.
 _FIRST_STEP, _NEAR_STEP, _NEWTON_STEP, _NEWTON_ITERATIONS = 1e-6, 1e-2, 10.0, 15
-_BEGUN = 1e-9  # iterations of a search that has begun and has done none
-# Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
-# grooves, nanometres an iteration: friction, which holds them, can start from there. Each part of such a search moves
-# them on as far again (Brezinski and Redivo Zaglia 1991, Extrapolation Methods): half the iterations reach the end.
-_CREEP = 1e-4
 # Where drag is averaged over a revolution; balls dip into a bath of usual level over about 70 degrees.
 _DRAG_AZIMUTHS = 36
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
@@ -188,7 +184,11 @@ def solve(
         if with_friction:
             report = _with_friction(compiled, context, state, strict=strict, by_warmer_oil=by_warmer_oil)
             report = follow_paths(
-                context, state, report, lambda near: continue_static(compiled, context, near, friction=True)
+                context,
+                state,
+                report,
+                lambda near, driven: continue_static(compiled, context, near, friction=True, driven=driven),
+                partial(driven_at, compiled, context),
             )
     except SolverError:
         if strict or is_late():
@@ -262,12 +262,12 @@ def continue_static(
     spent = 0.0
     if is_near:
         there = state.copy()
-        status, report = _attempt(compiled, context, there, _NEWTON_ITERATIONS, _NEWTON_STEP, driven)
+        status, report = attempt(compiled, context, there, _NEWTON_ITERATIONS, _NEWTON_STEP, driven)
         spent = float(report["iterations"][0])
         if status == Status.OK or once:
             state[:], attempts = there, []
     for most, step in attempts:
-        status, report = _attempt(compiled, context, state, most, step, driven)
+        status, report = attempt(compiled, context, state, most, step, driven)
         spent += report["iterations"][0]
         if status in (Status.OK, Status.REFUSED) or (friction and _limitless(context)):
             break
@@ -281,43 +281,6 @@ def continue_static(
     return report
 
 
-def _attempt(
-    compiled: Core,
-    context: SolverContext,
-    state: FloatArray,
-    most: int,
-    step: float,
-    driven: NDArray[np.int64] | None,
-) -> tuple[int, StaticReport]:
-    """Run the continuation from `state`, in place.
-
-    It runs until it ends or has done its iterations; `step` is the first one in pseudo-time [s].
-    """
-    report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
-    trust, held = np.ones(context.driven.size), context.driven
-    has_friction = bool(context.bundle.system[0]["friction_on"])
-
-    def advance(iterations: int) -> int:
-        found: int = compiled.solve_static(
-            compiled.evaluate_pointer, compiled.jacobian_pointer, context.bundle, context.blocks, context.factors,
-            state, 1.0 / context.scale, last, trust, held, report, iterations,
-        )  # fmt: skip
-        return found
-
-    status: int = advance(0)  # begins the search, and decides which balls the cage drives
-    report["pseudo_step"], report["iterations"] = step, _BEGUN
-    if driven is not None:
-        held[:] = driven
-    while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
-        if report["iterations"][0] > _ALWAYS:
-            check_time(f"{context.model.name}: the search for the equilibrium")
-        before = state.copy()
-        status = advance(min(_ITERATIONS_PER_CALL, most - int(report["iterations"][0])))
-        if status == Status.UNFINISHED and not has_friction and report["last_change"] <= _CREEP:
-            state += state - before
-    return status, report
-
-
 def without_friction(compiled: Core, context: SolverContext, state: FloatArray) -> SolverError | None:
     """Find the equilibrium of normal forces, in place.
 
@@ -326,7 +289,7 @@ def without_friction(compiled: Core, context: SolverContext, state: FloatArray) 
     try:
         continue_static(compiled, context, state, friction=False)
     except EquilibriumError as error:
-        if error.step > _CREEP:
+        if error.step > CREEP:
             raise
         return error
     return None
