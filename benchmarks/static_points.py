@@ -28,12 +28,13 @@ from lambda_core.domain.errors import CaseError, LambdaError
 
 SEED = 35
 _RPM = 30.0 / np.pi
+_STEEL = 7800.0  # density [kg/m3]
 _FASTEST = 20_000.0  # 1/min
 _ROLLER_SPEED = 500.0  # n d_m [m/min] up to which rollers without a limiting speed are drawn
 _RIBBED = ("NJ", "NUP", "NCF")  # cylindrical roller bearings that take thrust
 _STEEPEST = 0.4  # their thrust over the radial load
 # Thrust over F_r tan(alpha) at which half of a tapered bearing's circumference is loaded (Harris and Kotzalas, vol. 1,
-# ch. 7: 1.215), and some more: with less the bearing alone opens.
+# ch. 7: 1.215), and some more: with less the bearing alone opens. Centrifugal force of the rollers counts like F_r.
 _HALF_LOADED = 1.3
 
 
@@ -68,13 +69,16 @@ def points(count: int, seed: int = SEED, *, rollers: bool = False) -> Iterator[P
         angle = {0: 0.0, 1: 0.5 * np.pi, 2: generator.uniform(0.1, 1.4)}[int(generator.integers(3))]
         if rollers:
             angle = _carried(row, angle)
+        radial, axial = load * np.cos(angle), load * np.sin(angle)
+        if rollers and row.contact_angle is not None:
+            axial += _HALF_LOADED * _flung(row, speed) * np.tan(row.contact_angle.value)
         yield Point(
             f"{row.maker} {row.designation}",
             kind,
             (
                 f"operation.speed={speed:.6g} rpm",
-                f"loads.radial={load * np.cos(angle):.6g} N",
-                f"loads.axial={load * np.sin(angle):.6g} N",
+                f"loads.radial={radial:.6g} N",
+                f"loads.axial={axial:.6g} N",
                 f"lubricant.name={oils[generator.integers(len(oils))]}",
                 f"lubricant.temperature={generator.uniform(20.0, 90.0):.4g} degC",
             ),
@@ -95,6 +99,17 @@ def _carried(row: RollerRow, angle: float) -> float:
     if row.contact_angle is not None:
         return max(angle, float(np.arctan(_HALF_LOADED * np.tan(row.contact_angle.value))))
     return min(angle, float(np.arctan(_STEEPEST))) if row.kind in _RIBBED else 0.0
+
+
+def _flung(row: RollerRow, speed: float) -> float:
+    """Return the centrifugal force of all rollers [N].
+
+    Steel cylinders of the mean diameter; the cage turns with (1 - gamma)/2 of the inner ring's speed [1/min].
+    """
+    diameter, pitch = float(row.roller_diameter.value), float(row.pitch_diameter.value)
+    mass = row.roller_count.value * _STEEL * 0.25 * np.pi * diameter**2 * float(row.roller_length.value)
+    cage = 0.5 * (1.0 - diameter / pitch) * speed / _RPM
+    return float(mass * 0.5 * pitch * cage**2)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -10,7 +10,7 @@ from lambda_core.case.machine import MachineCase
 from lambda_core.case.short_form import LongForm, expand
 from lambda_core.case.written import validate
 from lambda_core.domain.elements import POSE
-from lambda_core.elements.roller.roller_equilibrium import takes_one_side
+from lambda_core.elements.roller.roller_thrust import takes_one_side
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.bodies.resolve_bodies import shaft_inertia
 from lambda_core.model.checking import resolve

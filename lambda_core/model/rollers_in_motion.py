@@ -22,8 +22,8 @@ from lambda_core.domain.errors import CaseError
 from lambda_core.domain.roles import DEFAULT_LINE_MODELS, DEFAULT_ROLLER_MODELS, DEFAULT_SHAPE_MODELS
 from lambda_core.domain.units import show
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_equilibrium import thrust_problem
 from lambda_core.elements.roller.roller_friction import RIB_ASPERITIES, SKF_CONSTANTS, skf_kind
+from lambda_core.elements.roller.roller_thrust import thrust_problem
 from lambda_core.model.bearing_model import BearingModel, ChosenLaw, ResolvedValue
 from lambda_core.model.bodies.resolve_elastic import bent_rings, waves_of_rings
 from lambda_core.model.checks.fitted_paths import fit_problems, known_numbers

@@ -15,6 +15,7 @@ from lambda_core.elements.roller.roller_bearing import RIBS, RollerBearing
 from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance, single_contact_constant
 from lambda_core.elements.roller.roller_friction import FrictionParameters, OilState, RollerFriction, friction
 from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.elements.roller.roller_thrust import least_thrust
 from lambda_core.model.roller_case import friction_parameters
 
 RPM = math.pi / 30.0
@@ -74,12 +75,25 @@ def test_thrust_that_no_rib_takes_is_refused(kind: str, thrust: float) -> None:
 def test_too_little_thrust_on_a_tapered_bearing_is_named() -> None:
     """Name too little thrust instead of 200 steps."""
     least = 5e3 * math.tan(TAPERED.angles.outer)
-    with pytest.raises(ArithmeticError, match=r"must be above F_r tan\(a_o\) = "):
+    with pytest.raises(ArithmeticError, match=r"must be above F_r tan\(a_o\), with "):
         balance(TAPERED, np.array([0.999 * least, 5e3, 0.0, 0.0, 0.0]))
-    with pytest.raises(ArithmeticError, match=r"above F_r tan\(a_o\)/cos\(pi/Z\) = .*; raise it"):
+    with pytest.raises(ArithmeticError, match=r"above F_r tan\(a_o\)/cos\(pi/Z\), with .*; raise it"):
         balance(TAPERED, np.array([1.005 * least, 5e3, 0.0, 0.0, 0.0]), first_angle=math.pi / TAPERED.count)
     state = balance(TAPERED, np.array([1.3 * least, 5e3, 0.0, 0.0, 0.0]))
     assert total(TAPERED, state)[1] == pytest.approx(5e3, rel=1e-6)
+
+
+@pytest.mark.parametrize("rpm", [1000.0, 4000.0, 12_000.0])
+def test_centrifugal_force_raises_the_least_thrust(rpm: float) -> None:
+    """Meet the bound from both sides."""
+    inertial = rolling_motion(TAPERED, rpm * RPM).inertial(TAPERED)
+    least = least_thrust(TAPERED, 2e3, float(inertial[1]))
+    assert least > 2e3 * math.tan(TAPERED.angles.outer)
+    state = balance(TAPERED, np.array([1.01 * least, 2e3, 0.0, 0.0, 0.0]), inertial=inertial)
+    assert 1 <= np.count_nonzero(state.inner.sum(axis=1) > 1.0) <= 5
+    scarce = np.array([0.99 * least, 2e3, 0.0, 0.0, 0.0])
+    with pytest.raises(ArithmeticError, match="does not hold cone and cup together"):
+        balance(TAPERED, scarce, inertial=inertial)
 
 
 def test_the_rib_has_the_load_of_the_wedge() -> None:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import ISO_CONSTANT, ISO_EXPONENT, STEEL_MODULUS
 from lambda_core.elements.roller.roller_bearing import Ring, RollerBearing
+from lambda_core.elements.roller.roller_thrust import refuse_scarce_thrust, thrust_advice
 from lambda_core.elements.roller.slices import SLICES, slice_positions
 from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.hertz import stiffness_constant
@@ -162,7 +163,8 @@ def balance(
     ArithmeticError
         When no equilibrium is found: a free direction that nothing holds, or loads beyond all stiffness.
     """
-    _refuse(bearing, loads, held)
+    centrifugal = 0.0 if inertial is None else float(inertial[1])
+    refuse_scarce_thrust(bearing, loads, held, centrifugal)
     springs = single_springs(bearing, slices)
     azimuths = first_angle + 2.0 * math.pi * np.arange(bearing.count) / bearing.count
     carry, bending = carry_of(azimuths, bearing), _bending(bearing)
@@ -225,83 +227,8 @@ def balance(
         ring, rollers = ring + share * move_ring, rollers + share * move_rollers
     raise ArithmeticError(
         f"no equilibrium of the rollers after {_MOST_STEPS} steps: imbalance {left / size:.1e} of the load; "
-        f"{_advice(bearing, loads, held)}"
+        f"{thrust_advice(bearing, loads, held, centrifugal)}"
     )
-
-
-def _refuse(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> None:
-    """Refuse thrust that nothing takes.
-
-    The error is a ValueError; too little thrust on a tapered bearing is an ArithmeticError.
-    """
-    problem = "" if held[0] else thrust_problem(bearing, float(loads[0]))
-    if problem:
-        raise ValueError(problem)
-    radial, least = math.hypot(loads[1], loads[2]), _least_thrust(bearing, loads, held)
-    if least > 0.0 and loads[0] <= least:
-        raise ArithmeticError(f"no equilibrium of the rollers: {scarce_thrust(radial, float(loads[0]), least)}")
-
-
-def least_thrust(bearing: RollerBearing, radial: float) -> float:
-    """Return the thrust that a tapered bearing must exceed [N].
-
-    sum Q_o sin(a_o) = F_a and sum Q_o cos(a_o) cos(psi) = F_r at the outer raceway, with Q_o >= 0, give
-    F_a >= F_r tan(a_o) of the free ring under a `radial` load. Zero where another kind takes the thrust.
-    """
-    if not bearing.is_conical or any(rib.ring != "inner" for rib in bearing.ribs):
-        return 0.0
-    return radial * math.tan(bearing.angles.outer)
-
-
-def scarce_thrust(radial: float, axial: float, least: float) -> str:
-    """Say that thrust does not hold a tapered bearing together."""
-    return (
-        f"a thrust of {axial:.4g} N does not hold cone and cup together under a radial load of {radial:.4g} N: it must "
-        f"be above F_r tan(a_o) = {least:.4g} N"
-    )
-
-
-def _least_thrust(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> float:
-    """Return that thrust [N], zero for a held ring."""
-    return 0.0 if any(held[:3]) else least_thrust(bearing, math.hypot(loads[1], loads[2]))
-
-
-def _advice(bearing: RollerBearing, loads: FloatArray, held: tuple[bool, ...]) -> str:
-    """Say what to do when no equilibrium is found."""
-    # two rollers that share the load press at half their pitch from its line: Q_o cos(a_o) cos(pi/Z) = F_r/2 each
-    least = _least_thrust(bearing, loads, held) / math.cos(math.pi / bearing.count)
-    plenty = least / 0.8  # F_r/(2 Y) with Y = 0.4 cot(alpha): half of the rollers carry (ISO 281)
-    if loads[0] < plenty:
-        return (
-            f"a thrust of {loads[0]:.4g} N hardly holds cone and cup together: between two rollers it must be above "
-            f"F_r tan(a_o)/cos(pi/Z) = {least:.4g} N; raise it to {plenty:.4g} N, at which half of the rollers carry"
-        )
-    return "check loads, clearance and what holds the inner ring"
-
-
-def thrust_problem(bearing: RollerBearing, thrust: float) -> str:
-    """Explain a thrust that the bearing cannot take.
-
-    It acts on the inner ring along x [N]; the text is "" where ribs or cones take it.
-    """
-    if bearing.kind == "tapered":
-        wrong = thrust <= 0.0
-        return "a tapered roller bearing needs thrust on the inner ring along x, above zero" if wrong else ""
-    if thrust == 0.0:
-        return ""
-    rings = {(rib.ring, rib.end) for rib in bearing.ribs}
-    end = -1 if thrust > 0.0 else 1
-    if {("inner", end), ("outer", -end)} <= rings:
-        return ""
-    return f"a roller bearing of kind {bearing.kind} takes no thrust in this direction; NJ: along x, NUP: both"
-
-
-def takes_one_side(bearing: RollerBearing) -> bool:
-    """Tell whether the bearing takes one-sided thrust only.
-
-    Ribs or cones take it.
-    """
-    return bool(thrust_problem(bearing, 1.0)) != bool(thrust_problem(bearing, -1.0))
 
 
 def single_springs(bearing: RollerBearing, slices: int) -> Springs:

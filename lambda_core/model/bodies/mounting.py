@@ -7,7 +7,7 @@ import math
 from lambda_core.case.holding import Dof
 from lambda_core.case.machine import MachineBearing
 from lambda_core.domain.elements import POSE
-from lambda_core.elements.roller.roller_equilibrium import takes_one_side, thrust_problem
+from lambda_core.elements.roller.roller_thrust import takes_one_side, thrust_problem
 from lambda_core.formulas.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.model.bearing_model import BearingModel, TimeFunction
 from lambda_core.model.bodies.rigid_bodies import refuse_far

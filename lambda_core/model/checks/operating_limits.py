@@ -16,15 +16,16 @@ import numpy as np
 from lambda_core.domain.elements import BodyName
 from lambda_core.domain.units import show
 from lambda_core.elements.ball.kinds import kinds
-from lambda_core.elements.roller.roller_equilibrium import least_thrust, scarce_thrust
+from lambda_core.elements.roller.roller_motion import rolling_motion
 from lambda_core.elements.roller.roller_ratings import roller_equivalent_load, roller_static_load
+from lambda_core.elements.roller.roller_thrust import least_thrust, scarce_thrust
 from lambda_core.formulas.elastic.ring import RingWaves
 from lambda_core.formulas.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.formulas.ratings import dynamic_rating, static_factor, static_rating
 from lambda_core.laws.par import flat_kernel
 from lambda_core.model.bearing_model import BearingModel, Body
 from lambda_core.model.geometry.proportions import proportion_warnings
-from lambda_core.model.laws.time_functions import peak
+from lambda_core.model.laws.time_functions import initial, peak
 
 # What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
 OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
@@ -211,7 +212,9 @@ def _scarce_thrust(model: BearingModel, radial: float, axial: float) -> Iterator
     along = model.inner_ring.dofs["x"]
     if model.rollers is None or along.mode != "free" or along.stiffness > 0.0:
         return
-    least = least_thrust(model.rollers, radial)
+    speeds = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
+    centrifugal = float(rolling_motion(model.rollers, *speeds).inertial(model.rollers)[1])
+    least = least_thrust(model.rollers, radial, centrifugal)
     if axial <= least and least > 0.0:
         yield scarce_thrust(radial, axial, least)
 

@@ -15,8 +15,9 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE, SPIN
 from lambda_core.domain.errors import SolverError
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance, thrust_problem
+from lambda_core.elements.roller.roller_equilibrium import RollerEquilibrium, balance
 from lambda_core.elements.roller.roller_motion import RollerMotion, rolling_motion
+from lambda_core.elements.roller.roller_thrust import thrust_problem
 from lambda_core.laws.context import Oil
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.law_context import ContactFrame

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.elements import BODIES, INNER, OUTER, POSE
 from lambda_core.elements.roller.roller_bearing import RollerBearing
-from lambda_core.elements.roller.roller_equilibrium import balance, thrust_problem
+from lambda_core.elements.roller.roller_equilibrium import balance
 from lambda_core.elements.roller.roller_motion import rolling_motion
+from lambda_core.elements.roller.roller_thrust import thrust_problem
 from lambda_core.model.bearing_model import BearingModel
 from lambda_core.model.laws.time_functions import initial
 
