@@ -18,6 +18,7 @@ from warm_machines import pair
 from lambda_core import api
 from lambda_core.analysis.thermal.conductances import rod
 from lambda_core.analysis.thermal.feedback import Runaway
+from lambda_core.analysis.thermal.machine_temperatures import MachineLoop
 from lambda_core.analysis.thermal.network import Network
 from lambda_core.analysis.thermal.report import SteadyTemperatures
 from lambda_core.analysis.thermal.surroundings import long_fin
@@ -218,6 +219,18 @@ def test_computed_temperatures_reach_the_equilibrium(warm: SteadyTemperatures, r
     assert any("temperatures found by the thermal network (harris): left inner ring" in line for line in said)
     found_ready = [bearing.friction_torque_Nmm for bearing in api.quasistatic(ready).bearings.values()]
     assert found_ready == pytest.approx(torques, rel=1e-6)
+
+
+def test_points_found_next_to_others_are_those_of_a_search_anew(warm: SteadyTemperatures) -> None:
+    """Move inlets and lengths by the steps of slopes."""
+    loop = MachineLoop(api.check(pair(**COMPUTED)))
+    seen = loop.seen(np.array([warm.temperatures_degC[name] for name in loop.nodes.names]) + 273.15)
+    moved = seen + loop.steps
+    anew = loop.solved(moved)
+    loop.solved(seen)
+    for near, other in zip(loop.solved_near(moved), anew, strict=True):
+        assert near.power == pytest.approx(other.power, rel=1e-6)
+    assert loop.count == 3
 
 
 def test_the_case_of_a_warm_machine_needs_no_second_search(ready: MachineModel) -> None:

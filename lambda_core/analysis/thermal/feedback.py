@@ -202,6 +202,10 @@ class Loop(ABC):
             When there is no equilibrium there, with the place.
         """
 
+    def solved_near(self, seen: FloatArray) -> tuple[Point, ...]:
+        """Solve the points near those solved last; see :meth:`solved`."""
+        return self.solved(seen)
+
     @abstractmethod
     def points_of(self, model: BearingModel | MachineModel) -> tuple[Point, ...]:
         """Return each bearing's point at a model's own temperatures."""
@@ -292,7 +296,7 @@ class Loop(ABC):
         for k, step in enumerate(self.steps):
             moved = seen.copy()
             moved[k] += step
-            outward[:, k] = (self.answer(self.solved(moved), base)[0] - base) / step
+            outward[:, k] = (self.answer(self.solved_near(moved), base)[0] - base) / step
         return outward, self.inward(temperatures)
 
     def inward(self, temperatures: FloatArray) -> FloatArray:

@@ -23,6 +23,7 @@ from lambda_core.solver.drivers.equilibrium import (
     solve,
 )
 from lambda_core.solver.drivers.first_state import first_state
+from lambda_core.solver.drivers.near_equilibrium import solve_near
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
 
@@ -56,9 +57,12 @@ class Reaction(ABC):
     ----------
     alone : BearingModel or None
         The bearing with all that holds and loads it, where nothing else of its machine moves.
+    found : Equilibrium or None
+        The last one with friction at a pose.
     """
 
     alone: BearingModel | None = None
+    found: Equilibrium | None = None
     _kernels: Kernels
     _announce: Announce
 
@@ -68,7 +72,8 @@ class Reaction(ABC):
         It is that at the last pose or of the bearing alone.
         """
         if self.alone is None:
-            return self.at_pose()
+            self.found = self.at_pose()
+            return self.found
         return solve(self.alone, self._kernels, self._announce, strict=False)
 
     @abstractmethod
@@ -89,17 +94,26 @@ class BearingReaction(Reaction):
         A guess of the contact angle [rad] and of the mean contact load [N], where radii and films are frozen first.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
+    near : BearingReaction, optional
+        Of this bearing in a condition nearby, whose contacts and balls the searches start from.
     """
 
     def __init__(
-        self, model: BearingModel, angle: float, load: float, kernels: Kernels | None = None, announce: Announce = None
+        self,
+        model: BearingModel,
+        angle: float,
+        load: float,
+        kernels: Kernels | None = None,
+        announce: Announce = None,
+        near: BearingReaction | None = None,
     ) -> None:
         self.model = model
         self._kernels, self._announce = kernels or Kernels(model, announce), announce
-        self._frame = ContactFrame((angle, angle), (load, load))
+        self._frame = ContactFrame((angle, angle), (load, load)) if near is None else near.frame
+        self._near = None if near is None else near.found
         self._context = self._assembled()
         self._freed: SolverContext | None = None
-        self._state = first_state(self._context)
+        self._state: FloatArray = first_state(self._context) if near is None else near._state
         self._pose = np.zeros(len(POSE))
 
     def _assembled(self) -> SolverContext:
@@ -166,4 +180,7 @@ class BearingReaction(Reaction):
 
         The friction is that of the balls.
         """
-        return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)
+        there = held(self.model, self._pose.tolist())
+        if self._near is not None:
+            return solve_near(there, self._near, self._kernels, is_of_laws=False, by_warmer_oil=False)
+        return solve(there, self._kernels, self._announce, strict=False)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -201,6 +202,15 @@ class _System:
             found = found + self.moves.T @ link.slope(self.moves @ q) @ self.moves
         return found
 
+    def unknowns(self, state: MachineState) -> FloatArray:
+        """Return the unknowns of a state.
+
+        Held ones have the places of this machine.
+        """
+        found = self.start.copy()
+        found[self.free] = np.linalg.solve(self.moves, state.motions)[self.free]
+        return found
+
     def merit(self, unbalanced: FloatArray) -> float:
         """Return the size of the residual over the loads."""
         return float(np.linalg.norm((unbalanced / self.arms)[self.free])) / max(self.scale, self.carried)
@@ -273,7 +283,12 @@ class SharedKernels:
         return self._known[choice]
 
 
-def solve_machine(model: MachineModel, announce: Announce = None, kernels: SharedKernels | None = None) -> MachineState:
+def solve_machine(
+    model: MachineModel,
+    announce: Announce = None,
+    kernels: SharedKernels | None = None,
+    near: MachineState | None = None,
+) -> MachineState:
     """Find the equilibrium of shaft, bearings and housing.
 
     Parameters
@@ -284,6 +299,8 @@ def solve_machine(model: MachineModel, announce: Announce = None, kernels: Share
         Called with a sentence before something is compiled.
     kernels : SharedKernels, optional
         Of another shaft, whose laws need not be tried out again.
+    near : MachineState, optional
+        Of this machine in a condition nearby, where the search starts.
 
     Raises
     ------
@@ -293,10 +310,14 @@ def solve_machine(model: MachineModel, announce: Announce = None, kernels: Share
     if model.awaits_temperatures:
         raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
     shared = kernels or SharedKernels(announce)
-    rings = [_ring(bearing, shared.of(bearing.model, announce), announce) for bearing in model.bearings]
+    beginnings = [None] * len(model.bearings) if near is None else near.rings
+    rings = [
+        _ring(bearing, shared.of(bearing.model, announce), announce, beginning)
+        for bearing, beginning in zip(model.bearings, beginnings, strict=True)
+    ]
     system = _System(model, rings, shared.of(model.bearings[0].model))
     _refuse_loose(system)
-    q = _first_guess(system)
+    q = _first_guess(system) if near is None else system.unknowns(near)
     iterations = 0
     for _ in range(_FRAMES):
         q, used = _newton(system, q)
@@ -322,13 +343,13 @@ def solve_machine(model: MachineModel, announce: Announce = None, kernels: Share
     )
 
 
-def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce) -> Ring:
+def _ring(bearing: MountedBearing, kernels: Kernels, announce: Announce, near: Any) -> Ring:
     """Return a bearing by the pose of its inner ring."""
     model = bearing.model
     if model.rollers is not None:
-        return RollerReaction(model, model.rollers, kernels, announce)
+        return RollerReaction(model, model.rollers, kernels, announce, near)
     angle = free_contact_angle(model) if bearing.takes else model.geometry.resting_angle
-    return BearingReaction(model, angle, 1000.0, kernels, announce)
+    return BearingReaction(model, angle, 1000.0, kernels, announce, near)
 
 
 def _springs(rings: list[Ring]) -> FloatArray:

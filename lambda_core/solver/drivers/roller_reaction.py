@@ -46,10 +46,17 @@ class RollerReaction(Reaction):
         Of it.
     kernels : Kernels, optional
         Of the same laws, from another bearing.
+    near : RollerReaction, optional
+        Of this bearing in a condition nearby, whose rollers the searches start from.
     """
 
     def __init__(
-        self, model: BearingModel, rollers: RollerBearing, kernels: Kernels | None = None, announce: Announce = None
+        self,
+        model: BearingModel,
+        rollers: RollerBearing,
+        kernels: Kernels | None = None,
+        announce: Announce = None,
+        near: RollerReaction | None = None,
     ) -> None:
         self.model, self.rollers = model, rollers
         self._kernels, self._announce = kernels or Kernels(model, announce), announce
@@ -61,7 +68,8 @@ class RollerReaction(Reaction):
         self.motion: RollerMotion = rolling_motion(rollers, inner, outer)
         self._turned = _turned(rollers)
         self._pose = np.zeros(len(POSE))
-        self._state: RollerEquilibrium | None = None
+        self._state: RollerEquilibrium | None = None if near is None else near._state
+        self._near = None if near is None else near.found
 
     @property
     def holds_along(self) -> bool:
@@ -122,6 +130,8 @@ class RollerReaction(Reaction):
         tilted pose it is lost in some places.
         """
         there, straight = held(self.model, self._pose.tolist()), [*self._pose[:_TILTS].tolist(), 0.0, 0.0]
+        if self._near is not None:
+            return solve_near(there, self._near, self._kernels, is_of_laws=False, by_warmer_oil=False)
         if self._pose[_TILTS:].any():
             with suppress(SolverError):  # else the pose itself has one, or says what is wrong
                 near = solve(held(self.model, straight), self._kernels, self._announce)
