@@ -14,7 +14,18 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
-from lambda_syla2026.calibration import ROLES, TAU, TAU_GRID, Calibration, band, calibration, fitted, spline, torques
+from lambda_syla2026.calibration import (
+    OVER_TAU,
+    ROLES,
+    TAU,
+    Calibration,
+    band,
+    calibration,
+    fitted,
+    over_tau,
+    spline,
+    torques,
+)
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import LOADS, POINTS, TABLE_4, largest, mean_absolute_error
 from lambda_syla2026.readings import MECHANISMS
@@ -185,8 +196,7 @@ def _loss(sampled: str) -> str:
 
 
 def _calibrations(runner: JobRunner, at: Sequence[Mapping[str, str | None]], offset: FloatArray) -> list[Calibration]:
-    jobs = [job for tau in TAU_GRID for job in _jobs([{**chosen, TAU: f"{tau:g} MPa"} for chosen in at])]
-    grid = np.array(torques(runner.all(jobs))).reshape(len(TAU_GRID), len(POINTS)) + offset
+    grid = over_tau(runner.all(_jobs(at, OVER_TAU))) + offset
     pair = tuple(P.entry(f"models.{role}").value for role in ROLES)
     curve = spline(grid)
     unfitted = mean_absolute_error(curve(8.0).tolist())

@@ -17,10 +17,10 @@ from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import LOADS, POINTS, Point, mean_absolute_error
+from lambda_syla2026.readings import TAU_GRID, torque_at
 
 TAU = "parameters.traction.tau_eyring"
-# Beyond the published range too, only to say where a free fit would end.
-TAU_GRID = (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0)  # [MPa]
+OVER_TAU = "friction over tau_e"  # a reading
 BAND = (5.0, 95.0)  # percentiles
 # The two terms whose laws differ most, the blind law of each first.
 ROLES = ("elastic_hysteresis", "rolling_resistance")
@@ -53,6 +53,11 @@ def torques(answers: Sequence[JobResult]) -> list[float]:
     return [answer["torque"] for answer in answers]
 
 
+def over_tau(answers: Sequence[JobResult]) -> FloatArray:
+    """Return torques by tau_e and point [N mm]."""
+    return np.array([[answer[torque_at(tau)] for answer in answers] for tau in TAU_GRID])
+
+
 def laws_of(role: str) -> list[str]:
     """Return the laws of a role without user constants.
 
@@ -83,13 +88,9 @@ def by_law(runner: JobRunner, offset: FloatArray) -> list[Calibration]:
         Torque of the blind runs less the quasi-static one [N mm].
     """
     pairs = list(product(*(laws_of(role) for role in ROLES)))
-    jobs = [
-        Job(point.case, P.changes({**_chosen(pair), TAU: f"{tau:g} MPa"}), "friction")
-        for pair in pairs
-        for tau in TAU_GRID
-        for point in POINTS
-    ]
-    grids = np.array(torques(runner.all(jobs))).reshape(len(pairs), len(TAU_GRID), len(POINTS)) + offset
+    jobs = [Job(point.case, P.changes(_chosen(pair)), OVER_TAU) for pair in pairs for point in POINTS]
+    answers = runner.all(jobs)
+    grids = [over_tau(answers[i : i + len(POINTS)]) + offset for i in range(0, len(answers), len(POINTS))]
     return [_on_curve(pair, grid, load) for pair, grid in zip(pairs, grids, strict=True) for load in LOADS]
 
 

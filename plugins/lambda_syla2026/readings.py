@@ -6,7 +6,8 @@ Each is computed in a worker process.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,8 @@ Numbers = dict[str, float | None]
 
 # Positions of the balls over half a pitch and their weights: under a radial load the other half mirrors it.
 _PHASES = {0.0: 0.125, 0.125: 0.25, 0.25: 0.25, 0.375: 0.25, 0.5: 0.125}
+# Beyond the published range too, only to say where a free fit would end.
+TAU_GRID = (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0)  # [MPa]
 _COARSE_PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
 MECHANISMS = ("sliding", "spin", "boundary", "rolling", "hysteresis", "damping", "drag", "cage")
 _OF_CAGE = {"pocket": "cage", "land": "cage"}
@@ -49,13 +52,57 @@ def friction(model: BearingModel) -> Numbers:
     """
     from lambda_core.analysis.thermal.temperatures import ready_model
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.solver.records import CONTACT_CHANNELS
     from lambda_core.studies.job import kernels_of
 
     model = ready_model(model)
-    kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
-    for phase, weight in _PHASES.items():
-        found = solve(model, kernels, phase=phase)
+    kernels = kernels_of(model)
+    return _mean_friction(solve(model, kernels, phase=phase) for phase in _PHASES)
+
+
+def friction_over_tau(model: BearingModel) -> Numbers:
+    """Return torques of :func:`friction` over tau_e [N mm].
+
+    Normal forces do not depend on the traction: each equilibrium is found next to that of the model's own tau_e.
+    """
+    from lambda_core.analysis.thermal.temperatures import ready_model
+    from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.solver.drivers.near_equilibrium import solve_near
+    from lambda_core.studies.job import kernels_of
+
+    model = ready_model(model)
+    kernels = kernels_of(model)
+    own = [solve(model, kernels, phase=phase) for phase in _PHASES]
+    found = Numbers()
+    for tau in TAU_GRID:
+        changed = _with_tau(model, tau)
+        found[torque_at(tau)] = _mean_friction(solve_near(changed, near, kernels) for near in own)["torque"]
+    return found
+
+
+def torque_at(tau: float) -> str:
+    """Return the name of the torque at a tau_e [MPa]."""
+    return f"torque at {tau:g} MPa"
+
+
+def _with_tau(model: BearingModel, tau: float) -> BearingModel:
+    laws = {
+        element: {
+            role: replace(law, parameters=law.parameters.model_copy(update={"tau_eyring": 1e6 * tau}))
+            if role == "traction"
+            else law
+            for role, law in roles.items()
+        }
+        for element, roles in model.laws.items()
+    }
+    return replace(model, laws=laws)
+
+
+def _mean_friction(solved: Iterable[Equilibrium]) -> Numbers:
+    """Return the mean over equilibria at _PHASES."""
+    from lambda_core.solver.records import CONTACT_CHANNELS
+
+    total = dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
+    for weight, found in zip(_PHASES.values(), solved, strict=True):
         losses = _grouped(dict(zip(LOSSES, (1e3 * found.losses / found.relative_speed).tolist(), strict=True)))
         load = found.contacts[:, RINGS.index("inner"), CONTACT_CHANNELS.index("load")]
         numbers = {**losses, "torque": sum(losses.values()), "max_load_N": float(load.max())}
@@ -278,6 +325,7 @@ def contacts(result: Result) -> Numbers:
 
 STATIC: Mapping[str, Callable[[BearingModel], Numbers]] = {
     "friction": friction,
+    "friction over tau_e": friction_over_tau,
     "skf": skf,
     "anchor": anchor,
     "axial load": axial_load,

@@ -8,11 +8,12 @@ from dataclasses import replace
 
 from lambda_core.export.report.key_tables import Table
 from lambda_syla2026.anchored_table import UNUSED, AnchoredTable
-from lambda_syla2026.calibration import TAU_GRID, Calibration
+from lambda_syla2026.calibration import Calibration
 from lambda_syla2026.fig5 import Fig5
 from lambda_syla2026.fig7 import STATED, Fig7
 from lambda_syla2026.parameters import blind_set
 from lambda_syla2026.published import POINTS
+from lambda_syla2026.readings import TAU_GRID
 from lambda_syla2026.table4 import Table4, rows_of
 
 _NONE = "-"

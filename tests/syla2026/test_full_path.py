@@ -19,7 +19,7 @@ from lambda_syla2026 import anchored_table, anchors, calibration, job_runner, ra
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.fig7 import RINGS
 from lambda_syla2026.job_runner import Job, JobResult
-from lambda_syla2026.readings import MECHANISMS, Numbers
+from lambda_syla2026.readings import MECHANISMS, TAU_GRID, Numbers, torque_at
 from lambda_syla2026.session import reproduce
 
 from lambda_core.discovery.manager import registry
@@ -62,6 +62,7 @@ def invented(model: BearingModel) -> Numbers:
         *RESONANCE,
         "bearing_pF",
         *(f"{ring} {name}" for ring in RINGS for name in CONTACT),
+        *map(torque_at, TAU_GRID),
     )
     motion = model.outer_ring.dofs["x"].motion.terms
     shaken = sum(t.values[0] * (2.0 * math.pi * t.values[1]) ** 2 for t in motion if t.kind == "harmonic")

@@ -8,10 +8,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from lambda_syla2026 import parameters as P
-from lambda_syla2026.calibration import TAU, TAU_GRID, by_law, fitted, laws_of
+from lambda_syla2026.calibration import by_law, fitted, laws_of
 from lambda_syla2026.job_runner import Job, JobResult
 from lambda_syla2026.published import POINTS
-from lambda_syla2026.readings import friction
+from lambda_syla2026.readings import TAU_GRID, friction, friction_over_tau, torque_at
 from lambda_syla2026.table4 import OperatingPoint
 
 from lambda_core import api
@@ -51,6 +51,15 @@ def test_quasi_static_torque_meets_a_run() -> None:
     )
     run = 1e3 * loss / (last["relative_angle"] - first["relative_angle"])
     assert run == pytest.approx(still, rel=0.03)
+
+
+def test_torques_over_tau_are_those_of_each_case() -> None:
+    case, changes = "6319-cp6.5-500", P.changes(P.with_law("elastic_hysteresis", "houpert"))
+    found = friction_over_tau(api.check(case, changes))
+    assert list(found) == [torque_at(tau) for tau in TAU_GRID]
+    for tau in (TAU_GRID[0], TAU_GRID[-1]):
+        alone = friction(api.check(case, (*changes, f"parameters.traction.tau_eyring={tau:g} MPa")))["torque"]
+        assert found[torque_at(tau)] == pytest.approx(alone, rel=1e-9)
 
 
 @pytest.mark.parametrize("true", [4.6, 6.0, 7.7])
@@ -127,11 +136,10 @@ class Invented:
     PAIR = ("models.elastic_hysteresis=houpert", "models.rolling_resistance=goksem-hargreaves")
 
     def all(self, jobs: list[Job]) -> list[JobResult]:
-        return [JobResult("done", "", "", {"torque": self.torque(job)}) for job in jobs]
+        return [JobResult("done", "", "", {torque_at(tau): self.torque(job, tau) for tau in TAU_GRID}) for job in jobs]
 
-    def torque(self, job: Job) -> float:
+    def torque(self, job: Job, tau: float) -> float:
         point = next(point for point in POINTS if point.case == job.case)
-        tau = float(next(c for c in job.changes if c.startswith(TAU)).partition("=")[2].split()[0])
         share = 1.0 if all(change in job.changes for change in self.PAIR) else 0.5
         return share * point.measured * (1.0 + 0.1 * (tau - 7.0))
 
