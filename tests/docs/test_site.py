@@ -33,7 +33,6 @@ def test_numbers_and_options_stay_in_one_piece() -> None:
     assert break_hook.on_page_content(page) == kept
 
 
-@pytest.mark.full
 def test_every_page_is_built_and_in_the_navigation(site: Path) -> None:
     navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
     for path in DOCS.rglob("*.md"):

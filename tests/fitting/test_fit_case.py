@@ -214,7 +214,6 @@ def test_a_page_shows_values_points_and_pictures(report: api.FitReport, tmp_path
     assert "lbf\u00a0in" in page
 
 
-@pytest.mark.full
 def test_the_temperature_error_of_the_oil_widens_the_errors(rows: list[str], report: api.FitReport) -> None:
     head = HEADER + ",oil temperature error [K]"
     measured = parse_measurements("\n".join([head, *(f"{row},0.5" for row in rows)]), "rig.csv")

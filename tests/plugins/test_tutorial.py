@@ -87,6 +87,7 @@ def test_every_command_works_and_says_what_the_page_prints(
     assert "traction             hyperbolic-limit" in resolved
 
 
+@pytest.mark.full
 def test_the_tests_on_the_page_pass(followed: tuple[Path, dict[str, str], dict[str, str]]) -> None:
     root, environment, _ = followed
     (root / "test_page.py").write_text(TEST_CODE[0])

@@ -71,7 +71,6 @@ def page(radial_run: Result, tmp_path_factory: pytest.TempPathFactory) -> Page:
     return Page(path.read_text(encoding="utf-8"))
 
 
-@pytest.mark.full
 def test_the_page_needs_nothing_from_outside(page: Page) -> None:
     assert all(address.startswith(("#", "data:")) for address in page.addresses)
     assert "script" not in page.tags

@@ -33,6 +33,7 @@ def test_the_excitation_is_the_one_asked_for(shaken: Result) -> None:
     assert 0.5 * np.ptp(last) * (2.0 * np.pi * FREQUENCY) ** 2 == pytest.approx(PEAK, rel=0.03)
 
 
+@pytest.mark.full
 def test_ball_speeds_before_and_after(shaken: Result) -> None:
     """Compare ball speeds with Syla et al., Fig. 6.
 

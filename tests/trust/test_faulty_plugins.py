@@ -190,19 +190,19 @@ def nothing(subject: Any, options: Options) -> ViewData:
     [(fail, "KeyError: 'rows'"), (number, 'a int, which has no "savefig"'), (lambda _: Unsaved(), "KeyError: 'axes'")],
 )
 def test_a4_a_drawing_that_fails_is_named_and_the_others_are_drawn(
-    install_also: Any, figure: Any, words: str, radial_run: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    install_also: Any, figure: Any, words: str, combined_run: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     install_also(package(lambda_views=View("guest", "a guest", "result", nothing, figure=figure, view_api=1)))
     kept = {name: view for name, view in registry().views.items() if name in ("guest", "pressure")}
     monkeypatch.setattr(registry(), "views", kept)
-    assert main(["view", str(radial_run.path), "--out", str(tmp_path), "--format", "svg"]) == 3
+    assert main(["view", str(combined_run.path), "--out", str(tmp_path), "--format", "svg"]) == 3
     said = capsys.readouterr()
     assert words in said.err
     assert "(guest 1.0)" in said.err
     assert [path.name.endswith("-pressure.svg") for path in tmp_path.iterdir()] == [True]
     page = tmp_path / "page.html"
-    assert main(["report", str(radial_run.path), "--out", str(page), "--appendix", "views"]) == 3
+    assert main(["report", str(combined_run.path), "--out", str(page), "--appendix", "views"]) == 3
     assert "(guest 1.0)" in page.read_text()
 
 

@@ -119,18 +119,18 @@ def test_a_gif_plays_in_a_loop(radial_run: Result, tmp_path: Path) -> None:
 
 @pytest.mark.full
 def test_an_mp4_needs_no_ffmpeg_of_the_system(
-    radial_run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    combined_run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
     monkeypatch.setenv("PATH", "")
-    path = api.animate(radial_run.path, tmp_path / "six.mp4", turns=0.1, frames=6, fps=12.0)
+    path = api.animate(combined_run.path, tmp_path / "six.mp4", turns=0.1, frames=6, fps=12.0)
     reader = imageio_ffmpeg.read_frames(str(path))
     facts = next(reader)
     frames = [np.frombuffer(frame, np.uint8).reshape(*facts["size"][::-1], 3) for frame in reader]
     assert facts["codec"].startswith("h264")
     assert facts["fps"] == 12.0
     assert len(frames) == 6
-    first = scene_frames(scene_of(radial_run, start=None, turns=0.1, frames=6), 1)[0]
+    first = scene_frames(scene_of(combined_run, start=None, turns=0.1, frames=6), 1)[0]
     assert np.abs(frames[0].astype(float) - first).mean() < 4.0  # what was drawn is what is played
 
 

@@ -122,27 +122,27 @@ def test_measured_torque_stands_in_the_curve_over_speed(tmp_path: Path, capsys: 
 
 @pytest.mark.full
 def test_a_run_shows_measured_torque_over_speed_and_temperatures_over_time(
-    radial_run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    combined_run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Draw measured points over speed and time.
 
     A run is one point: the curve of its case, and its warm-up, have the measured points.
     """
     torque = _file(tmp_path, "speed [1/min],friction torque [N mm]\n800,900\n3000,1500\n")
-    (curve,) = api.with_measured([], torque, result=radial_run.path)
+    (curve,) = api.with_measured([], torque, result=combined_run.path)
     panel = curve.panels[0]
     assert isinstance(panel, Panel)
     shown = {series.name: series for series in panel.series}
     assert shown["measured, rig.csv"].role != shown["SKF"].role
     assert shown["total"].band == "90 % model band"
     warm = _file(tmp_path, "time [min],oil temperature [degC]\n0,20\n2,25\n")
-    (found,) = api.with_measured([], warm, result=radial_run.path)
+    (found,) = api.with_measured([], warm, result=combined_run.path)
     panel = found.panels[0]
     assert isinstance(panel, Panel)
     assert panel.series[-1].name == "oil, measured"
     assert panel.series[0].x[-1] == pytest.approx(2.0)
     still = _file(tmp_path, "time [min],oil temperature [degC]\n0,20\n")
-    assert main(["view", str(radial_run.path), "--measured", str(still)]) == 2
+    assert main(["view", str(combined_run.path), "--measured", str(still)]) == 2
     assert "rig.csv: the times of a warm-up begin at 0 and rise" in capsys.readouterr().err
 
 

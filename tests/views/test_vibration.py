@@ -120,7 +120,7 @@ def test_a_signal_of_few_samples_has_no_envelope(radial_run: Result, tmp_path: P
 
 
 @pytest.mark.full
-def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_path: Path) -> None:
+def test_a_measured_signal_of_the_most_lines_is_read(combined_run: Result, tmp_path: Path) -> None:
     """Read a signal of 200 000 lines.
 
     So many are allowed, but only 4 MiB were.
@@ -128,4 +128,4 @@ def test_a_measured_signal_of_the_most_lines_is_read(radial_run: Result, tmp_pat
     file = tmp_path / "rig.csv"
     rows = [f"{2e-5 * k:.9f},{k % 7:.9f}" for k in range(200_000)]
     file.write_text("\n".join(["time [s],acceleration [m/s2]", *rows]), encoding="utf-8")
-    assert len(api.view(radial_run, "vibration", {"measured": str(file)}).panels) == 3
+    assert len(api.view(combined_run, "vibration", {"measured": str(file)}).panels) == 3
