@@ -141,28 +141,33 @@ def catalogue(user_folder: Path) -> Iterator[SqlCatalogue]:
 
 
 @pytest.fixture(scope="session")
-def warm(own_folders: Path) -> Iterator[Warm]:
+def warm(own_folders: Path, shared_folder: Path) -> Iterator[Warm]:
     """Start programs without waiting for their imports."""
     from warm import Warm
 
-    folder = own_folders / "warm"
-    folder.mkdir()
-    server = Warm(folder)
+    server = Warm(shared_folder)
     yield server
     server.close()
 
 
 @pytest.fixture(scope="session")
-def once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
+def shared_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder of all processes of this session."""
+    from made_once import CAN_SHARE
+
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if CAN_SHARE and "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
+def once(shared_folder: Path) -> Callable[[str, Callable[[Path], object]], Path]:
     """Return a function that fills a folder.
 
     Once for all processes of this session; nobody changes it later.
     """
-    from made_once import CAN_SHARE, made_once
+    from made_once import made_once
 
-    base = tmp_path_factory.getbasetemp()
-    shared = base.parent if CAN_SHARE and "PYTEST_XDIST_WORKER" in os.environ else base
-    return lambda name, fill: made_once(shared / "once" / name, fill)
+    return lambda name, fill: made_once(shared_folder / "once" / name, fill)
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ def made_once(folder: Path, fill: Callable[[Path], object]) -> Path:
     """
     folder.parent.mkdir(exist_ok=True)
     done = folder.with_name(f"{folder.name}.done")
-    with _alone(folder.with_name(f"{folder.name}.lock")):
+    with alone(folder.with_name(f"{folder.name}.lock")):
         if not done.exists():
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
@@ -31,7 +31,8 @@ def made_once(folder: Path, fill: Callable[[Path], object]) -> Path:
 
 
 @contextmanager
-def _alone(path: Path) -> Iterator[None]:
+def alone(path: Path) -> Iterator[None]:
+    """Let other processes wait meanwhile."""
     with path.open("w") as lock:
         if CAN_SHARE:
             fcntl.flock(lock, fcntl.LOCK_EX)

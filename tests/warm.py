@@ -3,7 +3,8 @@
 Every process is one of its own all the same: with its own number, folder, environment, streams, signals and exit code.
 Tests of the start itself (what is imported, how long it takes, other caches) start Python afresh.
 
-``python warm.py SOCKET`` is the server; :class:`Warm` starts it and asks it.
+``python warm.py SOCKET`` is the server; :class:`Warm` starts it and asks it. The processes of a session share one: it
+ends when the last of them has left.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from made_once import alone
+
 PROGRAM = "from lambda_cli.main import main; raise SystemExit(main())"
 _LOADED = """
 numba numpy scipy.integrate scipy.optimize h5py sqlalchemy.orm typer rich.progress
@@ -34,6 +37,7 @@ lambda_cli.commands lambda_core.model.checking lambda_core.runs.api
 lambda_core.runs.loop lambda_core.results.reader lambda_db.catalogue
 """
 _HAS_FORK = sys.platform == "linux"
+_STAY = (0).to_bytes(8, "big")  # in place of the length of a request: of who may ask later
 # Stands in for the installed command, for `python -c` and `python -P -m`: hands everything that makes a process to the
 # server, and on to that process the signal by which it is asked to end. Who ends the stand-in ends both.
 _SHIM = """#!{python} -IS
@@ -112,34 +116,51 @@ class Warm:
     `path` is a folder of commands to put in front of PATH.
     """
 
-    def __init__(self, folder: Path, env: Mapping[str, str] | None = None) -> None:
+    def __init__(self, folder: Path) -> None:
         self._address = str(folder / "warm")
-        self._own = dict(env or {})
         self._environment = dict(os.environ)  # of the session; that of a test may be its own
         self.path = folder / "bin"
-        self.path.mkdir()
-        self._server: subprocess.Popen[str] | None = None
-        if _HAS_FORK:
-            for name in ("lambda-bearing", "python"):
-                shim = self.path / name
-                shim.write_text(_SHIM.format(python=sys.executable, address=self._address, program=PROGRAM))
-                shim.chmod(0o755)
+        self._stays: socket.socket | None = None  # connected as long as this process may ask
+        self._server: subprocess.Popen[str] | None = None  # that this process has started
 
     def ready(self) -> Warm:
         """Start the server if it does not run yet."""
-        if _HAS_FORK and self._server is None:
-            # A test that called the program in this process may have left PYTHONSAFEPATH: with it the first place of
-            # sys.path, which each process gives up for its own folder, would be the first of PYTHONPATH.
-            self._server = subprocess.Popen(
-                [sys.executable, __file__, self._address, *(() if self._own else ("run",))],
-                env=self._environment | self._own | {"OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": ""},
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                text=True,
-            )
-            assert self._server.stdout is not None
-            assert self._server.stdout.readline() == "ready\n"
+        if _HAS_FORK and self._stays is None:
+            with alone(Path(f"{self._address}.lock")):
+                self._stays = self._connected() or self._started()
+                self._stays.sendall(_STAY)
         return self
+
+    def _connected(self) -> socket.socket | None:
+        connection = socket.socket(socket.AF_UNIX)
+        try:
+            connection.connect(self._address)
+        except OSError:  # there is none, or it has ended
+            connection.close()
+            return None
+        return connection
+
+    def _started(self) -> socket.socket:
+        self.path.mkdir(exist_ok=True)
+        for name in ("lambda-bearing", "python"):
+            shim = self.path / name
+            shim.write_text(_SHIM.format(python=sys.executable, address=self._address, program=PROGRAM))
+            shim.chmod(0o755)
+        # A test that called the program in this process may have left PYTHONSAFEPATH: with it the first place of
+        # sys.path, which each process gives up for its own folder, would be the first of PYTHONPATH.
+        self._server = subprocess.Popen(
+            [sys.executable, __file__, self._address],
+            env=self._environment | {"OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": ""},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self._server.stdout is not None
+        assert self._server.stdout.readline() == "ready\n"
+        self._server.stdout.close()
+        found = self._connected()
+        assert found is not None
+        return found
 
     @property
     def python(self) -> str:
@@ -160,7 +181,7 @@ class Warm:
 
         `stderr` is an open file; without one the errors come back from ``communicate``.
         """
-        environment = os.environ | self._own | dict(env or {})
+        environment = os.environ | dict(env or {})
         if not _HAS_FORK:
             return subprocess.Popen(
                 [sys.executable, "-c", code, *arguments], cwd=cwd, env=environment, text=True,
@@ -181,9 +202,9 @@ class Warm:
         return Started(connection, reading, errors)
 
     def close(self) -> None:
-        """End the server."""
-        if self._server is not None:
-            self._server.communicate()
+        """Leave the server; it ends when nobody stays."""
+        if self._stays is not None:
+            self._stays.close()
 
 
 def _first_run() -> None:
@@ -201,18 +222,17 @@ def _first_run() -> None:
     builtin._files.cache_clear()
 
 
-def serve(address: str, *also: str) -> None:
+def serve(address: str) -> None:
     """Fork a process for every request.
 
-    Until the input is closed.
+    Until nobody stays who may ask.
     """
     for name in _LOADED.split():
         importlib.import_module(name)
     from lambda_core.solver.core import core
 
     core()
-    if "run" in also:
-        _first_run()
+    _first_run()
     gc.freeze()
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(address)
@@ -223,25 +243,43 @@ def serve(address: str, *also: str) -> None:
     signal.set_wakeup_fd(wake)
     signal.signal(signal.SIGCHLD, lambda *_: None)
     children: dict[int, socket.socket] = {}
+    staying: list[socket.socket] = []
+    is_wanted = True
     print("ready", flush=True)
     while True:
-        known, _, _ = select.select([sys.stdin, listener, waking, *children.values()], [], [])
+        known, _, _ = select.select([listener, waking, *staying, *children.values()], [], [])
         if waking in known:
             with contextlib.suppress(BlockingIOError):
                 os.read(waking, 4096)
         if listener in known:
             connection = listener.accept()[0]
-            children[_fork(connection, [listener, *children.values()])] = connection
+            if pid := _fork(connection, [listener, *staying, *children.values()]):
+                children[pid] = connection
+            else:
+                staying.append(connection)
         for pid, asking in children.items():
             if asking in known:  # who asked is gone, and waits for nothing any more
                 os.kill(pid, signal.SIGKILL)
         _bury(children)
-        if sys.stdin in known:
+        left = [one for one in staying if one in known]  # it has nothing more to say
+        for one in left:
+            staying.remove(one)
+            one.close()
+        if left and is_wanted and not staying:
+            os.unlink(address)  # who comes from now on starts another one
+            is_wanted = False
+        if not (is_wanted or staying or select.select([listener], [], [], 0.0)[0]):
             return
 
 
 def _fork(connection: socket.socket, others: list[socket.socket]) -> int:
+    """Return the process that a connection asks for.
+
+    0 where it only stays.
+    """
     size, fds, _, _ = socket.recv_fds(connection, 8, 3)
+    if size in (_STAY, b""):
+        return 0
     with connection.makefile("rb") as stream:
         request = json.loads(stream.read(int.from_bytes(size, "big")))
     pid = os.fork()
