@@ -42,12 +42,15 @@ class Setting:
         [1/min].
     extra : tuple of str
         Further changes to the case.
+    share : float
+        Of TURNS and STILL_TURNS that are averaged.
     """
 
     variant: str
     load: float
     speed: float = 1500.0
     extra: tuple[str, ...] = ()
+    share: float = 1.0
 
     @property
     def cage_frequency(self) -> float:
@@ -62,10 +65,10 @@ class Setting:
         The motion X (cos(2 pi f t) - 1) starts from rest where the rings' equilibrium is.
         """
         turn = 1.0 / self.cage_frequency
-        motion, duration = "locked", (STILL_TURNS + DISCARDED) * turn
+        motion, duration = "locked", (self.share * STILL_TURNS + DISCARDED) * turn
         if acceleration > 0.0:
             amplitude = acceleration / (2.0 * math.pi * frequency) ** 2
-            duration = DISCARDED * turn + math.ceil(TURNS * turn * frequency - 1e-9) / frequency
+            duration = DISCARDED * turn + math.ceil(self.share * TURNS * turn * frequency - 1e-9) / frequency
             motion = (
                 f'{{ mode = "prescribed", motion = {{ kind = "sum", terms = ["{-1e3 * amplitude:.9g} mm", '
                 f'{{ kind = "harmonic", amplitude = "{1e3 * amplitude:.9g} mm", frequency = "{frequency:.9g} Hz", '

@@ -123,6 +123,15 @@ def test_the_motion_has_the_acceleration_that_was_asked_for() -> None:
     assert model.cage.type == CAGE
 
 
+def test_a_quick_search_averages_fewer_turns() -> None:
+    from lambda_core import api
+
+    for acceleration in (0.0, 9.0):
+        changes = (Setting("A", 5.0, share=share).changes(26.0, acceleration) for share in (1.0, 0.4))
+        complete, quick = (api.check(CASE, given).solver.duration for given in changes)
+        assert quick == pytest.approx(0.4 * complete, rel=0.1)  # and one turn before
+
+
 def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
     """Compute frequencies of the 6220 by hand.
 
