@@ -10,7 +10,6 @@ import pytest
 from lambda_core import api
 from lambda_core.results.quasistatic import quasistatic_of
 from lambda_core.runs.beginning import rolling_warnings
-from lambda_core.solver.drivers import equilibrium
 from lambda_core.solver.drivers.equilibrium import solve
 
 CASE = {
@@ -40,15 +39,12 @@ def test_a_case_a_model_an_estimate_and_a_run_give_the_same_numbers(tmp_path: Pa
     assert summary.equilibrium.max_pressure_GPa == pytest.approx(answer.max_pressure_GPa, rel=1e-3)
 
 
-def test_a_run_begins_in_rolling_where_no_steady_motion_is_found(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_begins_in_rolling_where_no_steady_motion_is_found(tmp_path: Path) -> None:
     """Run needle rollers in cold oil.
 
     The search cannot bring them to a steady motion. A machine ran there; a bearing alone was refused, with the
     advice to run it.
     """
-    monkeypatch.setattr(equilibrium, "_FRESH_STARTS", 0)  # they fail as the first attempt does, and take as long
     case = CASE | {
         "bearing": {"designation": "NA 4905"},
         "lubricant": {"name": "cylinder-oil-lvi", "temperature": "-9 degC"},

@@ -8,7 +8,9 @@ from lambda_core.solver.arrays.bundle import BR, BVT, BVX, BWR, BWT, BX, NS, RSK
 from lambda_core.solver.layout import allocating_helper, first_of, helper
 
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
+_SKEWING = 1e-5  # [s2] the same of a roller's skew under friction
 _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
+_FOLLOW = 1e8  # [1/s] rate at which a roller's spins across its axis become those that neither tilt nor skew it
 
 
 @helper
@@ -17,9 +19,14 @@ def _source(state, size, held, friction_on):
 
     The element has `size` states. Also return the factor, which is -1 where the state is fixed.
 
-    A roller's tilt and skew follow their angular accelerations, as positions do; the two spins across its axis follow
-    the rates of tilt and skew, which are to vanish. One that carries nothing is held in its pocket: next to nothing
-    resists its place along the shaft and its skew, which are those without friction.
+    A roller's tilt and skew follow their angular accelerations, as positions do. The two spins across its axis are
+    those without a rate of tilt and skew: constraints, which hold all the time (pseudo-transient continuation of
+    differential-algebraic equations: Coffey, Kelley and Keyes 2003, SIAM J. Sci. Comput. 25, 553). Ribs turn skew into
+    friction, and friction into tilt, thrust and skew. Where the skew is as fast as what answers it, these swing for
+    ever round a steady state; where it is slower, they do not: a slow and a fast part that are both stable alone are
+    stable together (Tikhonov's theorem: Kokotovic, Khalil and O'Reilly 1986, Singular Perturbation Methods in Control,
+    ch. 2). A roller that carries nothing is held in its pocket: next to nothing resists its place along the shaft and
+    its skew, which are those without friction.
     """
     if friction_on == 1 and held and size > RTILT and state in (BX, RSKEW):
         return -1, 0.0
@@ -28,13 +35,13 @@ def _source(state, size, held, friction_on):
     if state == RTILT:
         return BWT, _MOBILITY
     if state == RSKEW:
-        return BWR, -_MOBILITY
+        return BWR, -(_SKEWING if friction_on == 1 else _MOBILITY)
     if friction_on == 0 or state < BVT or (state == BVT and held):
         return -1, 0.0
     if size > RTILT and state == BWR:
-        return RSKEW, _HOLD
+        return RSKEW, _FOLLOW
     if size > RTILT and state == BWT:
-        return RTILT, -_HOLD
+        return RTILT, -_FOLLOW
     return state, 1.0
 
 
