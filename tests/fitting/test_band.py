@@ -682,6 +682,35 @@ def test_a_band_takes_few_iterations_where_unloaded_balls_change_their_motion(mo
     assert sum(done[True]) <= 500
 
 
+def test_a_band_takes_few_iterations_where_a_ball_creeps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Count iterations near the solution of two rows.
+
+    One ball creeps to its place while the others have theirs: 1248 iterations, 877 of them with another roughness.
+    """
+    done: list[float] = []
+    search = equilibrium.attempt
+
+    def counted(compiled: Any, context: Any, state: Any, most: int, step: float, driven: Any) -> Any:
+        status, report = search(compiled, context, state, most, step, driven)
+        if driven is not None:
+            done.append(float(report["iterations"][0]))
+        return status, report
+
+    monkeypatch.setattr(equilibrium, "attempt", counted)
+    case = {
+        "name": "rows",
+        "bearing": {"designation": "3210A", "maker": "SKF"},
+        "lubricant": {"name": "FVA3", "temperature": "53 degC"},
+        "loads": {"radial": "179.8 N"},
+        "operation": {"speed": "3487 rpm"},
+    }
+    found = api.model_band(case, quantities=["friction torque"])
+    assert isinstance(found, ModelBand)
+    assert not found.left_out
+    assert sum(done) <= 1000
+    assert max(done) <= 600
+
+
 def test_a_band_is_left_out_behind_the_limit_of_wall_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """Give up a run's band, which took seconds past max_wall."""
     asked: list[int] = []
