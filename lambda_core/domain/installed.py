@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import ast
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from pathlib import Path
@@ -55,10 +57,24 @@ def _source(point: EntryPoint) -> Source:
 def installed(group: str) -> list[Source]:
     """Return the installed plugins of `group`.
 
-    The program's own come first; none is imported.
+    The program's own come first; none is imported. To read what all packages declare takes 5 ms: it is read again where
+    a folder of packages has changed.
     """
+    return list(_found(group, tuple((place, _changed(place)) for place in sys.path)))
+
+
+@lru_cache(maxsize=8)
+def _found(group: str, _: tuple[tuple[str, int], ...]) -> tuple[Source, ...]:
     sources = {(s.project, s.name): s for s in map(_source, entry_points(group=group))}
-    return sorted(sources.values(), key=lambda s: (s.project != OWN, s.project, s.name))
+    return tuple(sorted(sources.values(), key=lambda s: (s.project != OWN, s.project, s.name)))
+
+
+def _changed(place: str) -> int:
+    """Return when a folder has changed last [ns]."""
+    try:
+        return os.stat(place or ".").st_mtime_ns
+    except OSError:
+        return 0
 
 
 def switched_off() -> tuple[str, ...]:
