@@ -202,8 +202,12 @@ class Loop(ABC):
             When there is no equilibrium there, with the place.
         """
 
-    def solved_near(self, seen: FloatArray) -> tuple[Point, ...]:
-        """Solve the points near those solved last; see :meth:`solved`."""
+    def solved_near(self, seen: FloatArray, *, is_followed: bool = False) -> tuple[Point, ...]:
+        """Solve the points near the last ones; see :meth:`solved`.
+
+        Those that are followed are the last ones from then on.
+        """
+        del is_followed
         return self.solved(seen)
 
     @abstractmethod

@@ -155,12 +155,12 @@ def _warm(rollers: RollerModel, model: BearingModel) -> RollerModel:
     warmer = roller_model(case, (f"lubricant.temperature={model.oil.temperature!r} K",))
     assert warmer is not None
     assert model.rollers is not None
-    return dataclasses.replace(rollers, bearing=model.rollers, oil=warmer.oil, dielectric=None)
+    return dataclasses.replace(rollers, bearing=model.rollers, oil=warmer.oil)
 
 
 def point_of_rollers(model: BearingModel, rollers: RollerModel) -> Point:
     """Return the point of rollers under their load."""
-    solved = solve_rollers(rollers)
+    solved = solve_rollers(dataclasses.replace(rollers, dielectric=None))  # losses need no capacitance
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
     extras = roller_extras(solved, rollers, materials)
     values = [*roller_losses(solved, rollers.bearing), *(extras[name] for name in _EXTRAS)]

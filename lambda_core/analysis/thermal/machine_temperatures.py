@@ -161,14 +161,16 @@ class MachineLoop(Loop):
             raise SolverError(f"{self._place(seen)}: {error}") from error
         return points
 
-    def solved_near(self, seen: FloatArray) -> tuple[Point, ...]:
+    def solved_near(self, seen: FloatArray, *, is_followed: bool = False) -> tuple[Point, ...]:
         """Solve shaft and bearings from their last equilibrium.
 
         It takes a third of the time; where the way from there leads nowhere they are solved anew.
         """
         if self._last is not None:
             with suppress(SolverError):
-                return self._solved(seen, self._last)[1]
+                state, points = self._solved(seen, self._last)
+                self._last = state if is_followed else self._last
+                return points
         return self.solved(seen)
 
     def _solved(self, seen: FloatArray, near: MachineState | None) -> tuple[MachineState, tuple[Point, ...]]:

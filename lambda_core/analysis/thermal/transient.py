@@ -274,7 +274,7 @@ def _step(
                 return _Step(found, end, now, later, size)
             if size > 1.0:
                 break
-            before, later = later, loop.solved(now)
+            before, later = later, loop.solved_near(now, is_followed=True)
             if max(abs(b.power - a.power) for a, b in zip(before, later, strict=True)) <= _AGREED * _power(later):
                 return _Step(found, end, now, later, size)
         end = 0.5 * (begin + end)
