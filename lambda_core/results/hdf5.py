@@ -20,20 +20,27 @@ from lambda_core.results.run_status import Rows
 
 _LOOKS = 24  # pauses of 1 ns and twice as long each time: 17 ms in all, a writer takes less
 METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [byte]
+# Bytes of chunks kept in memory per dataset of a file that is written: rows are only added at its end, and HDF5's own
+# 8 MiB would fill up in vain.
+CACHE = 2**17
 
 
-def open_for_reading(path: Path) -> h5py.File:
+def open_for_reading(path: Path, cache: int | None = None) -> h5py.File:
     """Open a result for reading.
 
-    It is finished, being written, or left behind by a killed process.
+    It is finished, being written, or left behind by a killed process. `cache` are the bytes of chunks kept in memory
+    per dataset, by default HDF5's own 8 MiB.
     """
     try:
-        return h5py.File(path, "r")
+        return h5py.File(path, "r", rdcc_nbytes=cache)
     except (OSError, RuntimeError):
         if path.is_file() and is_cut(path):
             raise OSError("it is truncated: its end is missing") from None
         access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
         access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
+        if cache is not None:
+            unused, slots, _, kept = access.get_cache()
+            access.set_cache(unused, slots, cache, kept)
         _look_again(access, _LOOKS)
         flags = h5py.h5f.ACC_RDONLY | h5py.h5f.ACC_SWMR_READ
         return h5py.File(h5py.h5f.open(os.fsencode(path), flags, fapl=access))
@@ -114,9 +121,10 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
     """
     made = sibling_path(path)
     try:
-        with open_for_reading(path) as source:
+        with open_for_reading(path, CACHE) as source:
             # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
-            with h5py.File(made, "w", libver="earliest" if compress else "latest") as target:
+            version = "earliest" if compress else "latest"
+            with h5py.File(made, "w", libver=version, rdcc_nbytes=CACHE) as target:
                 originals = layout.objects(source)
                 reserve(target, layout.size(originals, rows))
                 target.attrs.update(source.attrs)

@@ -34,8 +34,6 @@ from lambda_core.results.run_status import Rows, Status
 from lambda_core.results.samples import TIME, RunChannels, Samples
 
 _SAMPLES, _MACHINE, _CIRCUIT, _DISCHARGES = "", layout.MACHINE, CIRCUIT_GROUP, DISCHARGES_GROUP  # places in the file
-# Bytes of chunks kept in memory per dataset: rows are only added at the end, HDF5's own 8 MiB would fill up in vain.
-_CACHE = 2**17
 
 
 class DiskError(PartialResultError):
@@ -370,7 +368,7 @@ def _identity(path: Path) -> tuple[int, int] | None:
 
 def _growing(path: Path) -> h5py.File:
     """Open a file to add rows."""
-    return h5py.File(path, "r+", libver="latest", rdcc_nbytes=_CACHE)
+    return h5py.File(path, "r+", libver="latest", rdcc_nbytes=hdf5.CACHE)
 
 
 def _publish(made: Path, path: Path, overwrite: bool) -> None:
