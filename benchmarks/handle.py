@@ -35,7 +35,7 @@ def _repeat_jacobian(count, t, handle):
 def _repeat_factor(count, gamma, handle):
     blocks, factors = handle.blocks, handle.factors
     for _ in range(count):
-        blocks.changed[:] = 1
+        blocks.changed[:], blocks.newer[:] = 1, 1  # otherwise bearings on one shaft keep the factors of their balls
         arrow_factor(blocks, 1.0, gamma, factors)
     return count
 

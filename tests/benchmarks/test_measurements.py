@@ -16,6 +16,7 @@ from benchmarks.handle import Handle
 from benchmarks.integrators import Problem, cvode
 from benchmarks.parallel import friction_map
 from benchmarks.passage import Horizon, passage
+from benchmarks.shaft import on_a_shaft, together
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import initial_state
@@ -44,6 +45,20 @@ def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
     handle.slope(0.0, y - direction, down)
     change, predicted = 0.5 * (up - down), jacobian @ direction
     assert np.linalg.norm(change - predicted) <= 0.02 * np.linalg.norm(change)
+
+
+def test_factors_of_bearings_on_one_shaft_are_computed_each_time() -> None:
+    """Spoil the factors and repeat them.
+
+    Several bearings on a shaft otherwise keep those of balls whose blocks are not newer.
+    """
+    context = on_a_shaft(start().context, [0.0, 0.0])
+    handle = Handle(context)
+    handle.settle_at(0.0, together(start().context, [initial_state(start())] * 2), 1e-6)
+    expected = context.factors.own.copy()
+    context.factors.own[:] = np.nan
+    handle.repeat_factor(1, 1e-6)
+    np.testing.assert_array_equal(context.factors.own, expected)
 
 
 @pytest.mark.full
