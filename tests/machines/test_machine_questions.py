@@ -153,7 +153,7 @@ def test_pictures_and_report_of_a_short_run(
         == 5
     )
     capsys.readouterr()
-    assert main(["view", "short.h5", "--out", "drawn"]) == 0
+    assert main(["view", "short.h5", "--out", "drawn", "--format", "svg"]) == 0
     said = capsys.readouterr()
     assert "short-orbit.svg" in said.out
     assert "fails" not in said.err
