@@ -30,6 +30,8 @@ from typing import Any
 from made_once import alone
 
 PROGRAM = "from lambda_cli.main import main; raise SystemExit(main())"
+# The workers of a command, too, begin with everything imported; tests/studies/test_workers.py has them as users do.
+_FORKING = "import multiprocessing as m; get = m.get_context; m.get_context = lambda _: get('fork'); "
 _LOADED = """
 numba numpy scipy.integrate scipy.optimize h5py sqlalchemy.orm typer rich.progress
 matplotlib.figure matplotlib.backends.backend_svg matplotlib.backends.backend_agg
@@ -144,7 +146,7 @@ class Warm:
         self.path.mkdir(exist_ok=True)
         for name in ("lambda-bearing", "python"):
             shim = self.path / name
-            shim.write_text(_SHIM.format(python=sys.executable, address=self._address, program=PROGRAM))
+            shim.write_text(_SHIM.format(python=sys.executable, address=self._address, program=_FORKING + PROGRAM))
             shim.chmod(0o755)
         # A test that called the program in this process may have left PYTHONSAFEPATH: with it the first place of
         # sys.path, which each process gives up for its own folder, would be the first of PYTHONPATH.
