@@ -51,7 +51,7 @@ def quasistatic(
     bearing : str, optional
         One of a machine: the answer is about it alone, with the load of every ball.
     band : bool
-        Also compute the 90 % model band, see :func:`model_band`; it costs 0.4 s for most bearings, up to 3 s for some.
+        Also compute the 90 % model band, see :func:`model_band`; it costs 0.5 s for most bearings, up to 4 s for some.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -145,7 +145,7 @@ def run(
     overwrite : bool
         Overwrite `out`.
     band : bool
-        Also compute the 90 % model band, see :func:`model_band`; it costs 0.4 s for most bearings, up to 3 s for some.
+        Also compute the 90 % model band, see :func:`model_band`; it costs 0.5 s for most bearings, up to 4 s for some.
     progress : callable, optional
         Called some ten times a second.
     announce : callable, optional
