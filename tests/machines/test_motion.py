@@ -229,9 +229,8 @@ def abandon(path: Path) -> None:
     again += (
         "from lambda_core.results.run_status import Status; s = Status.from_bytes(bytes(f['status'][()])); f.close(); "
     )
-    again += "os.replace(hdf5.copy(p, s.rows, compress=False), p)"
-    subprocess.run([sys.executable, "-c", again, str(path)], check=True)  # packed files have no format for writing on
-    subprocess.run([sys.executable, "-c", kill, str(path)], check=True)
+    again += "os.replace(hdf5.copy(p, s.rows, compress=False), p)"  # packed files have no format for writing on
+    subprocess.run([sys.executable, "-c", f"{again}; {kill}", str(path)], check=True)
     with pytest.raises(OSError, match="already open for write"):
         h5py.File(path, "r+", libver="latest")
 

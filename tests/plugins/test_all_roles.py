@@ -91,7 +91,7 @@ def test_rollers_have_the_same_closed_form(site: Installation) -> None:
     Every roller is pressed on both rings by a negative clearance. Ribs, which a NU without thrust leaves alone, have
     the foreign laws of the roles that lines and points share, and built-in ones of points.
     """
-    answer = site.python(RUN, "rollers", *ROLLERS, "gravity.z=0 m/s2")
+    answer = site.forked(RUN, "rollers", *ROLLERS, "gravity.z=0 m/s2")
     assert answer.code == 0, answer.err
     found = answer.data
     assert found["ok"]
@@ -110,7 +110,7 @@ def test_ribs_under_thrust_have_foreign_laws_in_every_role(site: Installation) -
 
     The thrust of 300 N goes through one rib of each ring. Their oil hardly holds them: they add little to the torque.
     """
-    answer = site.python(RUN, "rollers", "ribs", *ROLLERS, *RIBS, "loads.axial=300 N", "gravity.z=0 m/s2")
+    answer = site.forked(RUN, "rollers", "ribs", *ROLLERS, *RIBS, "loads.axial=300 N", "gravity.z=0 m/s2")
     assert answer.code == 0, answer.err
     found = answer.data
     assert found["ok"]
@@ -139,7 +139,7 @@ def test_films_break_down_and_burn_by_foreign_laws(site: Installation) -> None:
 
     The ball's other film breaks down in the same discharge, and its current comes on top.
     """
-    answer = site.python(CURRENTS, "electric.breakdown.law=own", "electric.discharge.law=own", "electric.duration=2 ms")
+    answer = site.forked(CURRENTS, "electric.breakdown.law=own", "electric.discharge.law=own", "electric.duration=2 ms")
     assert answer.code == 0, answer.err
     assert answer.data["voltage"] == pytest.approx(4.0, rel=1e-7)  # crossed inside a step, along a straight line
     assert 4.0 / 28.0 <= answer.data["peak"] <= 2.0 * 4.0 / 28.0

@@ -91,7 +91,7 @@ def run(site: Installation, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.timeout(900)
 def test_in_the_builder(site: Installation, run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(run.parent)
-    answer = site.python(BUILDER, str(ROOT / "tests" / "gui"), LAMBDA_BEARING_DATA=str(run.parent / "data"))
+    answer = site.forked(BUILDER, str(ROOT / "tests" / "gui"), LAMBDA_BEARING_DATA=str(run.parent / "data"))
     assert answer.code == 0, answer.err[-3000:]
     seen = answer.data
     assert "gecim-winer  (limiting-shear 0.1.0)" in seen["laws"]

@@ -29,7 +29,7 @@ def site(install: Callable[..., Installation], sources: Path) -> Installation:
 def test_own_tests_pass(site: Installation, sources: Path, tmp_path: Path) -> None:
     code = "import sys, pytest; raise SystemExit(pytest.main(sys.argv[1:]))"
     options = ["-q", "-p", "no:cacheprovider", "--import-mode=importlib", f"--rootdir={tmp_path}", "-c", "/dev/null"]
-    answer = site.python(code, *options, str(sources / "tests"))
+    answer = site.forked(code, *options, str(sources / "tests"))
     assert answer.code == 0, answer.out + answer.err
 
 

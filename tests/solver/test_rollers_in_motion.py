@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from warm import Warm
 
 from lambda_core import api
 from lambda_core.domain.elements import CAGE
@@ -291,7 +292,7 @@ THRUST: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.full
-def test_another_process_continues_a_run(tmp_path: Path) -> None:
+def test_another_process_continues_a_run(tmp_path: Path, warm: Warm) -> None:
     """Continue a run in another process.
 
     The checkpoint had addresses of code, which is elsewhere there: the process crashed.
@@ -299,9 +300,10 @@ def test_another_process_continues_a_run(tmp_path: Path) -> None:
     both, parted = tmp_path / "both.h5", tmp_path / "parted.h5"
     api.run(CASE, ["solver.duration=2 ms"], out=both)
     api.run(CASE, ["solver.duration=1 ms"], out=parted)
-    code = f"from lambda_core import api; api.resume({str(parted)!r}, ['solver.duration=2 ms'])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    code = "import sys; from lambda_core import api; api.resume(sys.argv[1], ['solver.duration=2 ms'])"
+    other = warm.start(code, str(parted))
+    _, errors = other.communicate()
+    assert other.returncode == 0, errors
     ours, theirs = (api.result(path)["ball_azimuth"] for path in (both, parted))
     assert np.array_equal(ours[-1], theirs[-1])
 
