@@ -21,7 +21,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.laws.jit.words import Array, by_reference
-from lambda_core.laws.pack import Function, kind_from
+from lambda_core.laws.pack import Function, kind_from, other_code
 from lambda_core.results.opening import ResultError
 
 ROOT = Path(__file__).parents[2]
@@ -115,6 +115,16 @@ def test_where_there_is_no_pack_nobody_gets_one_by_asking(tmp_path: Path) -> Non
     said = call("-m", "lambda_cli", "quasistatic", CASE, cwd=tmp_path, LAMBDA_BEARING_CODE="pack")
     assert said.returncode == 2
     assert "this installation has none: install a wheel with a pack, or set LAMBDA_BEARING_CODE=native" in said.stderr
+
+
+def test_packs_of_other_compilers_do_not_continue_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    here = "pack linux x86-64-v3 numba 0.68.1 llvmlite 0.50.0"
+    monkeypatch.setattr("lambda_core.laws.pack.code", lambda: here)
+    assert other_code(here) == ""
+    for there in (here.replace("v3", "v4"), here.replace("0.68.1", "0.67.0"), here.replace("0.50.0", "0.49.0")):
+        said = other_code(there)
+        assert said.startswith(f"it was computed by other machine code ({there}; this is {here})")
+        assert said.endswith("take the installation that began it")
 
 
 def test_a_run_does_not_go_on_under_other_code(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
