@@ -225,9 +225,6 @@ def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.Cap
 
 def test_a_machine_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Refuse questions about the other kind with advice."""
-    (folder / "one.toml").write_text('name = "one"\n[bearing]\ndesignation = "SKF 6206"\n')
-    assert main(["modes", str(folder / "one.toml")]) == 2
-    assert "--as-machine" in capsys.readouterr().err
     assert main(["init", "other", "--template", "geared-shaft", "--bearing", "SKF 6208"]) == 2
     assert "two bearings" in capsys.readouterr().err
     assert main(["init", "box", "--template", "geared-shaft", "--out", str(folder / "box.toml")]) == 2
