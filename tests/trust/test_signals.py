@@ -154,15 +154,13 @@ def test_b10_the_limit_of_wall_time_includes_the_preparation(tmp_path: Path, mon
 
 
 def test_the_limit_of_wall_time_ends_a_search_for_the_start(tmp_path: Path) -> None:
-    """Give up where cold oil leaves rollers no steady motion.
+    """Give up where needles find no steady motion.
 
     The search went on for minutes past a limit of four seconds.
     """
     case = {
-        "name": "cold", "bearing": {"designation": "SKF 32008"}, "loads": {"radial": "1101.28 N", "axial": "624.232 N"},
-        "lubricant": {"name": "light-machine-oil-mvi", "temperature": "-9.917 degC"},
-        "operation": {"speed": "25.4257 rpm"},
-        "models": {"film_thickness": "moes-line", "elastic_hysteresis": "none", "mixing": "contact-area"},
+        "name": "cold", "bearing": {"designation": "SKF NA 4905"}, "loads": {"radial": "7959.79 N"},
+        "lubricant": {"name": "FVA3", "temperature": "24.9517 degC"}, "operation": {"speed": "1127.87 rpm"},
         "solver": {"max_wall": "10 ms"},
     }  # fmt: skip
     with pytest.raises(SolverError, match=r"cold: the search for the equilibrium did not end .* \(solver\.max_wall\)"):
