@@ -127,16 +127,28 @@ class RollerReaction(Reaction):
         The laws of the model give the friction of the rollers.
 
         Friction skews the rollers of a tilted ring, and the way there starts from a straight one: straight into the
-        tilted pose it is lost in some places.
+        tilted pose it is lost in some places, and some of these are reached by half the tilt.
         """
-        there, straight = held(self.model, self._pose.tolist()), [*self._pose[:_TILTS].tolist(), 0.0, 0.0]
+        there = held(self.model, self._pose.tolist())
         if self._near is not None:
-            return solve_near(there, self._near, self._kernels, is_of_laws=False, by_warmer_oil=False)
+            with suppress(SolverError):
+                return solve_near(there, self._near, self._kernels, is_of_laws=False, by_warmer_oil=False)
         if self._pose[_TILTS:].any():
             with suppress(SolverError):  # else the pose itself has one, or says what is wrong
-                near = solve(held(self.model, straight), self._kernels, self._announce)
-                return solve_near(there, near, self._kernels)
+                straight = solve(self._tilted(0.0), self._kernels, self._announce)
+                with suppress(SolverError):
+                    return solve_near(there, straight, self._kernels, by_warmer_oil=False)
+                with suppress(SolverError):
+                    half = solve_near(self._tilted(0.5), straight, self._kernels, by_warmer_oil=False)
+                    return solve_near(there, half, self._kernels, by_warmer_oil=False)
+                return solve_near(there, straight, self._kernels)
         return solve(there, self._kernels, self._announce, strict=False)
+
+    def _tilted(self, share: float) -> BearingModel:
+        """Return the bearing at the last pose with a share of its tilts."""
+        pose = self._pose.copy()
+        pose[_TILTS:] *= share
+        return held(self.model, pose.tolist())
 
 
 def rollers_between(
