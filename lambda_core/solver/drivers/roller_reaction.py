@@ -145,7 +145,7 @@ class RollerReaction(Reaction):
         return solve(there, self._kernels, self._announce, strict=False)
 
     def _tilted(self, share: float) -> BearingModel:
-        """Return the bearing at the last pose with a share of its tilts."""
+        """Return the bearing at a share of its tilts."""
         pose = self._pose.copy()
         pose[_TILTS:] *= share
         return held(self.model, pose.tolist())
