@@ -53,12 +53,24 @@ def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: 
         Path of `data` within the whole file.
     """
     found: dict[str, Problem] = {}
-    for item in error.errors(include_url=False):
-        path = _path(item["loc"])
+    for told in error.errors(include_url=False):
+        location = _option(told["loc"], model)
+        item, path = {**told, "loc": location}, _path(location)
         where = ".".join(str(part) for part in ([prefix] if prefix else []) + path)
         sentence = printable(_message(item, path, model, data)).replace("\n", "\\n")  # one line, whatever was written
         found.setdefault(where, Problem(where, sentence))
     return list(found.values())
+
+
+def _option(location: Sequence[int | str], model: type[BaseModel]) -> Sequence[int | str]:
+    """Return an option's place, without the branch of its type.
+
+    Pydantic puts it behind the option: ``profile.str``.
+    """
+    *keys, last = location or [""]
+    table = model_at(model, keys[:-1]) if keys else None
+    is_branch = last == "str" or str(last).startswith("literal[")
+    return keys if is_branch and table is not None and keys[-1] in table.model_fields else location
 
 
 def _path(location: Sequence[int | str]) -> list[int | str]:

@@ -40,6 +40,11 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
             "models.traction",
             'is text in quotes, not a table: write traction = "ree-eyring"',
         ),
+        (
+            {"bearing": {"rollers": {"profile": {}}}},
+            "bearing.rollers.profile",
+            'a table is not allowed: write "iso" or',
+        ),
         ({"lubricant": {"temperature": "40"}}, "lubricant.temperature", 'write "40 degC"'),
         ({"lubricant": {"temperature": None}}, "lubricant.temperature", "is required"),
         ({"lubricant": {"starvation": 1.5}}, "lubricant.starvation", "must be at most 1"),
